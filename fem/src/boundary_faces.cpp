@@ -31,15 +31,14 @@ void add_faces(const int* points, const Places& sides, int cell, std::vector<Fac
     Face face{{}, {}, cell, static_cast<int>(side)};
     for (const int place : sides[side]) face.corners.push_back(points[place]);
     face.ascending = face.corners;
-    std::sort(face.ascending.begin(), face.ascending.end());
+    std::ranges::sort(face.ascending);
     faces.push_back(std::move(face));
   }
 }
 
 /// Those that belong to one solid only, by their corners, which become the order.
 std::vector<Face> single(std::vector<Face> faces) {
-  std::stable_sort(faces.begin(), faces.end(),
-                   [](const Face& a, const Face& b) { return a.ascending < b.ascending; });
+  std::ranges::stable_sort(faces, {}, &Face::ascending);
   std::vector<Face> found;
   for (auto at = faces.begin(); at != faces.end();) {
     const auto next =
@@ -70,9 +69,8 @@ const CellType& type_of(int type, int points) {
                                                {26, 15, 0, &faces_of_wedge},
                                                {12, 8, 0, &faces_of_hexahedron},
                                                {25, 20, 0, &faces_of_hexahedron}}};
-  const auto found = std::find_if(known.begin(), known.end(), [&](const CellType& one) {
-    return one.type == type && one.points == points;
-  });
+  const auto found = std::ranges::find_if(
+      known, [&](const CellType& one) { return one.type == type && one.points == points; });
   if (found == known.end())
     throw std::invalid_argument("surface_of: a cell of " + std::to_string(points) + " points has the type " +
                                 std::to_string(type) + "; it must be one that read_mesh() makes");
@@ -92,8 +90,9 @@ Connectivity boundary_faces(const SolidMesh& mesh) {
   for (int element = 0; element < mesh.elements.cols(); ++element)
     add_faces(mesh.elements.col(element).data(), faces_of_hexahedron, element, found);
   found = single(std::move(found));
-  std::sort(found.begin(), found.end(),
-            [](const Face& a, const Face& b) { return std::tie(a.cell, a.side) < std::tie(b.cell, b.side); });
+  std::ranges::sort(found, [](const Face& a, const Face& b) {
+    return std::tie(a.cell, a.side) < std::tie(b.cell, b.side);
+  });
   const bool quadratic = nodes_per_element(mesh.element) == 20;
   Connectivity faces(quadratic ? 8 : 4, std::ssize(found));
   for (Eigen::Index column = 0; column < faces.cols(); ++column) {

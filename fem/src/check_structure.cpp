@@ -106,7 +106,7 @@ bool positive_semidefinite(const Sparse& matrix, double tolerance) {
 
 void check_unknowns(std::span<const int> list, int unknowns, const std::string& name) {
   std::vector<int> sorted(list.begin(), list.end());
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   for (int unknown : sorted)
     if (unknown < 0 || unknown >= unknowns)
       throw std::invalid_argument(name + " has " + std::to_string(unknown) + "; it must be in 0.." +

@@ -52,8 +52,9 @@ Backbone rigid_backbone(const solvers::ModalModel& model, const app::Analysis& o
   const solvers::NonlinearMode mode(model, options);
   Backbone result{"no_contact", mode.linear_omega() / (2.0 * std::numbers::pi), {}, {}};
   result.points = app::rigid_backbone(mode, of.points, of.largest_energy, of.last_frequency_ratio, observer);
-  if (std::any_of(result.points.begin(), result.points.end(),
-                  [](const ModePoint& point) { return point.status == solvers::ModeStatus::converged; }))
+  if (std::ranges::any_of(result.points, [](const ModePoint& point) {
+        return point.status == solvers::ModeStatus::converged;
+      }))
     result.status =
         result.points.back().energy_ratio >= of.largest_energy ? "reached_energy" : "reached_frequency";
   return result;

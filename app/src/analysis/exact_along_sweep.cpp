@@ -17,7 +17,7 @@ std::vector<std::size_t> special_points_taken(const std::vector<solvers::Special
   std::stable_partition(taken.begin(), taken.end(),
                         [&](std::size_t i) { return points[i].type != solvers::SpecialPointType::grazing; });
   taken.resize(most_special_points_with_exact);
-  std::sort(taken.begin(), taken.end());
+  std::ranges::sort(taken);
   return taken;
 }
 
@@ -138,15 +138,14 @@ bool seeks_exact_points(const Scene& scene) {
 }
 
 std::size_t peak_of(const solvers::FrequencySweep& curve) {
-  const auto highest =
-      std::max_element(curve.points.begin(), curve.points.end(),
-                       [](const auto& a, const auto& b) { return a.max_displacement < b.max_displacement; });
+  const auto highest = std::ranges::max_element(
+      curve.points, [](const auto& a, const auto& b) { return a.max_displacement < b.max_displacement; });
   return static_cast<std::size_t>(highest - curve.points.begin());
 }
 
 std::size_t vibration_peak_of(const solvers::FrequencySweep& curve) {
-  const auto most = std::max_element(curve.points.begin(), curve.points.end(),
-                                     [](const auto& a, const auto& b) { return a.vibration < b.vibration; });
+  const auto most = std::ranges::max_element(
+      curve.points, [](const auto& a, const auto& b) { return a.vibration < b.vibration; });
   return static_cast<std::size_t>(most - curve.points.begin());
 }
 

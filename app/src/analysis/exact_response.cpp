@@ -30,8 +30,7 @@ struct ExactFound {
   bool may_go_on() const { return !motion || motion->status == solvers::ExactStatus::not_found; }
   /// Whether a slider is where the start has it.
   bool depends_on_history() const {
-    return motion && std::any_of(motion->friction.begin(), motion->friction.end(),
-                                 [](const solvers::FrictionAlong& one) { return one.always_sticks(); });
+    return motion && std::ranges::any_of(motion->friction, &solvers::FrictionAlong::always_sticks);
   }
 };
 

@@ -53,8 +53,8 @@ solvers::PointStability stability_of(const ExactPoint& point, const Measure& mea
   stability.status =
       point.unstable >= 0 ? solvers::StabilityStatus::converged : solvers::StabilityStatus::no_response;
   stability.unstable = point.unstable;
-  const auto phases = std::count_if(
-      point.motion.phases.begin(), point.motion.phases.end(),
+  const auto phases = std::ranges::count_if(
+      point.motion.phases,
       [&](const solvers::ForceInterval& phase) {  // contacts with friction have phases in all their states
         return measure.laws.begins(phase.contact) && !measure.laws[phase.contact].friction();
       });

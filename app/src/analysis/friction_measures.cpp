@@ -8,7 +8,7 @@ namespace wavebalance::app {
 namespace {
 
 double share_of(const contact::FrictionPeriod& period, contact::FrictionState state) {
-  return double(std::count(period.state.begin(), period.state.end(), state)) / double(period.state.size());
+  return double(std::ranges::count(period.state, state)) / double(period.state.size());
 }
 
 contact::CoulombLaw law_of(const SceneContact& contact) {

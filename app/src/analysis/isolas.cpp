@@ -85,8 +85,8 @@ bool is_on(solvers::ContactProblem& problem, const Sweep& sweep, double frequenc
 bool is_on_any(solvers::ContactProblem& problem, const Sweep& sweep, double frequency,
                const solvers::ExactSolution& motion) {
   return is_on(problem, sweep, frequency, motion) ||
-         std::any_of(sweep.isolas.begin(), sweep.isolas.end(),
-                     [&](const Sweep& isola) { return is_on(problem, isola, frequency, motion); });
+         std::ranges::any_of(sweep.isolas,
+                             [&](const Sweep& isola) { return is_on(problem, isola, frequency, motion); });
 }
 
 /// A curve of balances, followed exactly. Nothing where no motion of the structure was found near those at

@@ -80,8 +80,7 @@ void add_to(Interruption& gap, const ModePoint& point, double ratio) {
     return;
   }
   const std::string name = resonance_name(point.resonance);
-  if (std::find(gap.resonances.begin(), gap.resonances.end(), name) == gap.resonances.end())
-    gap.resonances.push_back(name);
+  if (std::ranges::find(gap.resonances, name) == gap.resonances.end()) gap.resonances.push_back(name);
 }
 
 std::vector<Interruption> interruptions_of(const std::vector<ModePoint>& points, double linear_omega) {
@@ -165,14 +164,13 @@ std::vector<ModePoint> rigid_backbone(const solvers::NonlinearMode& mode, int po
 }
 
 int Backbone::count(ModeStatus status) const {
-  return static_cast<int>(std::count_if(points.begin(), points.end(),
-                                        [&](const ModePoint& point) { return point.status == status; }));
+  return static_cast<int>(
+      std::ranges::count_if(points, [&](const ModePoint& point) { return point.status == status; }));
 }
 
 bool Backbone::converged() const {
   return complete && count(ModeStatus::converged) > 0 &&
-         std::none_of(interruptions.begin(), interruptions.end(),
-                      [](const Interruption& gap) { return gap.resonances.empty(); });
+         std::ranges::none_of(interruptions, [](const Interruption& gap) { return gap.resonances.empty(); });
 }
 
 std::string Backbone::status() const {

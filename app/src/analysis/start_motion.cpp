@@ -35,7 +35,7 @@ std::vector<std::string> motions_in(const fs::path& folder) {
     if (name.starts_with("motion_") && name.ends_with(".csv") && !name.ends_with(contacts_suffix))
       names.push_back(name);
   }
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   return names;
 }
 

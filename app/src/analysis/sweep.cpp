@@ -92,10 +92,9 @@ SweepAxis sweep_axis(const Scene& scene) {
 
 bool Sweep::stopped() const {
   return interrupted() || stability.cancelled || phases_cancelled || isola_search.cancelled ||
-         outputs_cancelled || !motions_left_out.empty() ||
-         std::any_of(isolas.begin(), isolas.end(), [](const Sweep& one) { return one.stopped(); }) ||
-         std::any_of(branches.begin(), branches.end(),
-                     [](const auto& branch) { return branch.end == solvers::BranchEnd::cancelled; });
+         outputs_cancelled || !motions_left_out.empty() || std::ranges::any_of(isolas, &Sweep::stopped) ||
+         std::ranges::any_of(branches,
+                             [](const auto& branch) { return branch.end == solvers::BranchEnd::cancelled; });
 }
 
 std::size_t Sweep::peak() const { return peak_of_output ? *peak_of_output : peak_of(curve); }
@@ -103,8 +102,7 @@ std::size_t Sweep::peak() const { return peak_of_output ? *peak_of_output : peak
 bool Sweep::misses_part() const {
   const bool of_structure =
       structure_points && (structure_points->apart || !structure_points->passed_by.empty());
-  return of_structure ||
-         std::any_of(isolas.begin(), isolas.end(), [](const Sweep& one) { return one.origin.meets_known; });
+  return of_structure || std::ranges::any_of(isolas, [](const Sweep& one) { return one.origin.meets_known; });
 }
 
 std::string Sweep::status() const {

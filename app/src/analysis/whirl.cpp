@@ -44,8 +44,8 @@ std::vector<WhirlMode> whirls_of(const solvers::LinearStructure& structure, bool
   for (const solvers::ContactPole& pole : dynamics.poles())
     if (pole.exponent.imag() > std::max(overdamped * std::abs(pole.exponent), rigid * fastest))
       modes.push_back({pole.exponent, has_plane ? circularity_of(pole.shape, at_rest * largest) : missing});
-  std::sort(modes.begin(), modes.end(),
-            [](const WhirlMode& a, const WhirlMode& b) { return a.exponent.imag() < b.exponent.imag(); });
+  std::ranges::sort(
+      modes, [](const WhirlMode& a, const WhirlMode& b) { return a.exponent.imag() < b.exponent.imag(); });
   if (modes.size() > most) modes.resize(most);
   return modes;
 }
@@ -67,7 +67,7 @@ class Whirls {
   /// The one whose exponent is nearest; nothing where there is none.
   std::optional<WhirlMode> nearest(double speed, Complex exponent, std::size_t most) const {
     const std::vector<WhirlMode> modes = at(speed, most);
-    const auto found = std::min_element(modes.begin(), modes.end(), [&](const auto& a, const auto& b) {
+    const auto found = std::ranges::min_element(modes, [&](const auto& a, const auto& b) {
       return std::abs(a.exponent - exponent) < std::abs(b.exponent - exponent);
     });
     return found == modes.end() ? std::nullopt : std::optional(*found);
@@ -98,7 +98,7 @@ void extend(std::vector<Line>& lines, const std::vector<WhirlMode>& modes) {
       if (const double distance = std::abs(modes[j].exponent - expected_on(lines[i]));
           std::isfinite(distance))
         pairs.push_back({distance, i, j});
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
+  std::ranges::sort(pairs, {}, &Pair::distance);
   std::vector<std::optional<WhirlMode>> next(lines.size());
   std::vector<bool> taken(modes.size(), false);
   for (const Pair& pair : pairs) {
@@ -171,8 +171,7 @@ CampbellDiagram campbell_diagram(const StructureModel& model, double highest) {
       if (const auto found = crossing(whirls, {from, line[i - 1]}, {to, line[i]}, sought))
         diagram.critical.push_back(*found);
     }
-  std::sort(diagram.critical.begin(), diagram.critical.end(),
-            [](const auto& a, const auto& b) { return a.speed < b.speed; });
+  std::ranges::sort(diagram.critical, [](const auto& a, const auto& b) { return a.speed < b.speed; });
   return diagram;
 }
 

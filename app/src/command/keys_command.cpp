@@ -30,7 +30,7 @@ std::vector<std::string> sections_of(const std::vector<SceneKey>& keys) {
 std::vector<std::string> deciding_keys(const std::vector<SceneKey>& keys) {
   std::vector<std::string> names;
   for (const SceneKey& key : scene_keys())
-    if (!key.choices.empty() && std::any_of(keys.begin(), keys.end(), [&](const SceneKey& other) {
+    if (!key.choices.empty() && std::ranges::any_of(keys, [&](const SceneKey& other) {
           return other.belongs.concerns(key.full_name());
         }))
       names.push_back(key.full_name());
@@ -43,7 +43,7 @@ bool can_hold(const Condition& condition, Scene scene, std::vector<std::string> 
   const SceneKey& key = *find_scene_key(open.back());
   open.pop_back();
   if (!condition.concerns(key.full_name())) return can_hold(condition, std::move(scene), std::move(open));
-  return std::any_of(key.choices.begin(), key.choices.end(), [&](std::string_view choice) {
+  return std::ranges::any_of(key.choices, [&](std::string_view choice) {
     key.set(scene, std::string(choice));
     return can_hold(condition, scene, open);
   });
@@ -91,7 +91,7 @@ KeyFilter filter_of(const std::string& filter, const std::vector<SceneKey>& keys
   const KeyFilter named = [filter](const SceneKey& key) {
     return key.name == filter || key.full_name() == filter;
   };
-  if (std::any_of(keys.begin(), keys.end(), named)) return named;
+  if (std::ranges::any_of(keys, named)) return named;
   std::vector<std::string> names = sections;
   for (const SceneKey& key : keys) {
     names.emplace_back(key.name);
@@ -111,8 +111,7 @@ std::string selected_keys_text(const std::vector<std::string>& filters) {
     (filter.find('=') == std::string::npos ? parts : choices).push_back(filter_of(filter, keys));
   const auto shown = [&](const SceneKey& key) {
     const auto selects = [&](const KeyFilter& selected) { return selected(key); };
-    return (parts.empty() || std::any_of(parts.begin(), parts.end(), selects)) &&
-           std::all_of(choices.begin(), choices.end(), selects);
+    return (parts.empty() || std::ranges::any_of(parts, selects)) && std::ranges::all_of(choices, selects);
   };
   const std::string text = describe_scene_keys(shown, chosen_law(filters));
   if (text.empty())

@@ -32,11 +32,9 @@ std::string page_text(const OverlayArguments& arguments, const Overlay& overlay,
   for (const fs::path& folder : arguments.folders) list += "<li>" + escaped(folder.string()) + "</li>\n";
   std::string warnings;
   for (const std::string& one : overlay.warnings) warnings += "<p>" + escaped(one) + ".</p>\n";
-  const bool has_unstable =
-      std::any_of(overlay.curves.begin(), overlay.curves.end(), [](const OverlayCurve& curve) {
-        return std::any_of(curve.unstable.begin(), curve.unstable.end(),
-                           [](double count) { return count > 0.0; });
-      });
+  const bool has_unstable = std::ranges::any_of(overlay.curves, [](const OverlayCurve& curve) {
+    return std::ranges::any_of(curve.unstable, [](double count) { return count > 0.0; });
+  });
   PageParts page;
   page.title = "Responses and modes, Wavebalance";
   page.assets = "";

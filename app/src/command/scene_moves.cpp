@@ -49,7 +49,7 @@ constexpr std::string_view depth_name = "damping_depth";
 /// The contact whose damper sets in at once, or nullptr.
 const SceneContact* sudden_damper(const std::vector<SceneContact>& contacts) {
   const std::vector<std::string_view>& laws = find_scene_key("contact.damping_depth")->laws;
-  const auto found = std::find_if(contacts.begin(), contacts.end(), [&](const SceneContact& one) {
+  const auto found = std::ranges::find_if(contacts, [&](const SceneContact& one) {
     if (!contains(laws, one.law)) return false;
     const auto given = one.values.find(depth_name);
     return given == one.values.end() || std::get<double>(given->second) == 0.0;

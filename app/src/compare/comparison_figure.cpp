@@ -76,9 +76,9 @@ std::vector<BasisPair> leading_pairs(std::vector<BasisPair> pairs, const std::ve
                                      std::size_t most) {
   const auto lead = [&](const BasisPair& pair) {
     const auto own = points_of(pair, points);
-    return std::count_if(own.begin(), own.end(), [](const SolvePoint& point) { return point.on_front; });
+    return std::ranges::count_if(own, &SolvePoint::on_front);
   };
-  std::stable_sort(pairs.begin(), pairs.end(), [&](const BasisPair& a, const BasisPair& b) {
+  std::ranges::stable_sort(pairs, [&](const BasisPair& a, const BasisPair& b) {
     if (a.is_fourier() != b.is_fourier()) return a.is_fourier();
     return lead(a) > lead(b);
   });

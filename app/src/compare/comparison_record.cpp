@@ -58,8 +58,7 @@ std::string measure_sentence(const Comparison& comparison) {
 }
 
 std::string counted(const Comparison& comparison) {
-  const auto converged = std::count_if(comparison.points.begin(), comparison.points.end(),
-                                       [](const SolvePoint& point) { return point.converged; });
+  const auto converged = std::ranges::count_if(comparison.points, &SolvePoint::converged);
   return fmt::format("{} solves, {} of them converged, {} in all.", comparison.points.size(), converged,
                      quantity(comparison.wall_seconds, "s", 2));
 }
@@ -98,10 +97,9 @@ std::vector<std::string> warnings_of(const Comparison& comparison) {
         "the motion of the reference is unstable: the attractor is another one, and a solver may find either");
   constexpr int many_functions = 64;
   constexpr double far = 0.1;
-  const auto others =
-      std::count_if(comparison.points.begin(), comparison.points.end(), [&](const SolvePoint& point) {
-        return point.converged && point.functions >= many_functions && point.displacement_error > far;
-      });
+  const auto others = std::ranges::count_if(comparison.points, [&](const SolvePoint& point) {
+    return point.converged && point.functions >= many_functions && point.displacement_error > far;
+  });
   if (others > 0)
     warnings.push_back(
         fmt::format("converged solves with {} functions or more that differ from the reference by more than "

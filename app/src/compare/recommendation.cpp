@@ -127,7 +127,7 @@ std::string without_choice(const Recommendation& found, const std::vector<SolveP
     const bool second = reaches(b, std::numeric_limits<double>::infinity());
     return first != second ? first : first && a.error < b.error;
   };
-  const auto best = std::min_element(points.begin(), points.end(), nearer);
+  const auto best = std::ranges::min_element(points, nearer);
   const std::string which = asked_text(found);
   if (best == points.end() || !reaches(*best, std::numeric_limits<double>::infinity()))
     return "No pair reaches an error of " + which +
@@ -192,8 +192,8 @@ void note_near_misses(Recommendation& found, const std::vector<SolvePoint>& poin
 }
 
 BasisMatters matters_of(const Recommendation& found, const std::vector<SolvePoint>& points) {
-  const bool compared = std::any_of(points.begin(), points.end(),
-                                    [](const SolvePoint& point) { return point.pair.is_fourier(); });
+  const bool compared =
+      std::ranges::any_of(points, [](const SolvePoint& point) { return point.pair.is_fourier(); });
   if (!found.choice) return BasisMatters::no_choice;
   if (!compared) return BasisMatters::not_compared;
   if (found.fourier_near_miss) return BasisMatters::little;
@@ -224,7 +224,7 @@ bool is_steady(const SolvePoint& point, const std::vector<SolvePoint>& points, d
     return other.method == point.method && other.pair == point.pair && other.functions == next &&
            other.points == 2 * point.points && other.status != "not_run";
   };
-  const auto found = std::find_if(points.begin(), points.end(), is_next);
+  const auto found = std::ranges::find_if(points, is_next);
   return found == points.end() || reaches(*found, error);
 }
 
@@ -234,9 +234,9 @@ std::optional<SolvePoint> cheapest(const std::vector<SolvePoint>& points, double
     if (reaches(point, error)) able.push_back(point);
   if (able.empty()) return std::nullopt;
   const auto unsteady = [&](const SolvePoint& point) { return !is_steady(point, points, error); };
-  if (!std::all_of(able.begin(), able.end(), unsteady)) std::erase_if(able, unsteady);
-  const SolvePoint best = *std::min_element(able.begin(), able.end(), is_cheaper);
-  return *std::min_element(able.begin(), able.end(), [&](const SolvePoint& a, const SolvePoint& b) {
+  if (!std::ranges::all_of(able, unsteady)) std::erase_if(able, unsteady);
+  const SolvePoint best = *std::ranges::min_element(able, is_cheaper);
+  return *std::ranges::min_element(able, [&](const SolvePoint& a, const SolvePoint& b) {
     const auto rank = [&](const SolvePoint& point) {
       const bool equal = point.pair == best.pair && point.seconds <= noise * best.seconds;
       return std::tuple(!equal, point.functions, point.points);

@@ -53,7 +53,7 @@ class SolvedSoFar {
   bool dominates(const SolvePoint& point, double ratio) const {
     const std::lock_guard alone(guard_);
     if (!point.converged) return !converged_.empty();
-    return std::any_of(converged_.begin(), converged_.end(), [&](const SolvePoint& other) {
+    return std::ranges::any_of(converged_, [&](const SolvePoint& other) {
       return other.error <= point.error && ratio * other.seconds <= point.seconds;
     });
   }
@@ -162,7 +162,7 @@ std::vector<SizeSeries*> in_order(std::vector<SizeSeries>& all, const SizeStudyO
   std::vector<std::pair<double, SizeSeries*>> lags;
   for (SizeSeries& series : all)
     lags.emplace_back(options.dominated_ratio > 0.0 ? series.lag() : 1.0, &series);
-  std::stable_sort(lags.begin(), lags.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(lags, [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<SizeSeries*> order;
   for (const auto& [lag, series] : lags) order.push_back(series);
   return order;

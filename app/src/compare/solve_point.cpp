@@ -11,15 +11,14 @@ void mark_front(std::vector<SolvePoint>& points) {
       return other.converged && other.seconds <= point.seconds && other.error <= point.error &&
              (other.seconds < point.seconds || other.error < point.error);
     };
-    point.on_front = point.converged && std::none_of(points.begin(), points.end(), beats);
+    point.on_front = point.converged && std::ranges::none_of(points, beats);
   }
 }
 
 std::vector<SolvePoint> envelope(std::vector<SolvePoint> points) {
   mark_front(points);
   std::erase_if(points, [](const SolvePoint& point) { return !point.on_front; });
-  std::sort(points.begin(), points.end(),
-            [](const SolvePoint& a, const SolvePoint& b) { return a.seconds < b.seconds; });
+  std::ranges::sort(points, {}, &SolvePoint::seconds);
   return points;
 }
 

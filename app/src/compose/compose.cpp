@@ -89,8 +89,8 @@ namespace {
 
 solvers::ContactLaws laws_at(const Scene& scene, double frequency) {
   const std::vector<SceneContact> contacts = contacts_of(scene, frequency);
-  const bool one = std::all_of(contacts.begin(), contacts.end(),
-                               [&](const SceneContact& other) { return other.same_law(contacts.front()); });
+  const bool one = std::ranges::all_of(
+      contacts, [&](const SceneContact& other) { return other.same_law(contacts.front()); });
   if (one && !has_friction(scene) && !names_coupled_rows(scene.contact))
     return contacts.empty() ? make_law(scene.contact) : law_of(contacts[0].law, contacts[0].values);
   std::vector<solvers::AnyContactLaw> laws;

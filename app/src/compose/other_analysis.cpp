@@ -25,9 +25,9 @@ void set_text(Scene& scene, const Document& document, const std::string& name) {
 
 /// Whether a change names a key, to set it or to leave it out.
 bool names_key(const SceneChange& change, const std::string& key) {
-  return contains(change.unset, key) ||
-         std::any_of(change.set.begin(), change.set.end(),
-                     [&](const std::string& one) { return one.substr(0, one.find('=')) == key; });
+  return contains(change.unset, key) || std::ranges::any_of(change.set, [&](const std::string& one) {
+           return one.substr(0, one.find('=')) == key;
+         });
 }
 
 /// Whether the key at fault only has to go, as it belongs to what the change replaced. One of the structure
@@ -40,7 +40,7 @@ bool is_left_over(const SceneError::Details& fault, const SceneChange& change) {
 /// Whether a law of the document has friction.
 bool has_friction_law(const Document& document) {
   const std::vector<std::string_view>& laws = find_scene_key("contact.law")->choices;
-  return std::any_of(document.entries.begin(), document.entries.end(), [&](const DocumentEntry& entry) {
+  return std::ranges::any_of(document.entries, [&](const DocumentEntry& entry) {
     const auto* text = std::get_if<std::string>(&entry.value);
     return entry.key == "law" && text != nullptr && contains(laws, *text) && has_friction(*text);
   });
@@ -78,8 +78,8 @@ std::vector<std::string> keys_beside_analysis(const std::filesystem::path& file,
         (key->belongs.broken_by(scene) == "analysis.type" || (without_bases && entry.section == "time"));
     if (stray || (free_motion && acts_on_free_motion(entry))) names.push_back(entry.full_name());
   }
-  const bool terms = std::any_of(given.sections.begin(), given.sections.end(),
-                                 [](const DocumentSection& one) { return is_term_section(one.name); });
+  const bool terms = std::ranges::any_of(
+      given.sections, [](const DocumentSection& one) { return is_term_section(one.name); });
   if (free_motion && terms) names.emplace_back("forcing.terms");
   return names;
 }

@@ -78,7 +78,7 @@ void set_place(Output& output, OutputWords& words, const Scene& scene, std::opti
     if (output.rows.size() == 1) place = files->row_name(output.rows.front());
     if (files->dof_map) rotation = is_rotation(*files, output.rows.front());
     for (const int row : output.rows)
-      if (std::binary_search(files->moving.begin(), files->moving.end(), row))
+      if (std::ranges::binary_search(files->moving, row))
         throw std::invalid_argument(fmt::format(
             "degree of freedom {} moves with a base displacement; expected one that does not", row + 1));
   }
@@ -133,7 +133,7 @@ int closing_direction(const SceneContact& contact, int row) {
 /// The displacement of a row of the files from the unknowns.
 Eigen::RowVectorXd row_of_unknowns(const StructureFiles& files, int row) {
   const auto place = [row](const std::vector<int>& rows) -> Eigen::Index {
-    const auto found = std::find(rows.begin(), rows.end(), row);
+    const auto found = std::ranges::find(rows, row);
     return found == rows.end() ? -1 : found - rows.begin();
   };
   if (const Eigen::Index condensed = place(files.massless); condensed >= 0)

@@ -18,7 +18,7 @@ void check_damping(const Document& document, const Scene& scene) {
                     static_cast<int>(structure.modal_damping > 0.0) + static_cast<int>(file);
   const auto names = {"structure.damping", "structure.modal_damping", "structure.stiffness_damping"};
   if (given > 1) {
-    const auto first = std::find_if(names.begin(), names.end(), [&](const char* name) {
+    const auto first = std::ranges::find_if(names, [&](const char* name) {
       const SceneKey& key = *find_scene_key(name);
       return document.find(key.section, key.name) != nullptr && key.get(scene) != key.get(Scene{});
     });

@@ -16,8 +16,8 @@ namespace {
 /// How many directions have an obstacle on either side; empty without any.
 std::string sides_text(const Scene& scene) {
   const auto& pairs = scene.contact.pairs;
-  const auto both = std::count_if(pairs.begin(), pairs.end(),
-                                  [](const auto& one) { return one.side == ObstacleSide::both; });
+  const auto both =
+      std::ranges::count_if(pairs, [](const auto& one) { return one.side == ObstacleSide::both; });
   if (both == 0) return "";
   return "; two contacts for each of the " + count_text(both, "direction") + " with obstacles on both sides";
 }
@@ -46,12 +46,11 @@ std::string two_gaps_text(const SceneContact& contact, const std::string& unit) 
 std::string acting_text(const std::vector<SceneContact>& contacts) {
   const auto frictional = [](const SceneContact& one) { return has_friction(one.law); };
   const auto opens = [&](const SceneContact& one) { return frictional(one) && one.directions > 1; };
-  if (std::none_of(contacts.begin(), contacts.end(), frictional)) return "which acts everywhere";
-  if (std::all_of(contacts.begin(), contacts.end(), opens)) return "open where the normal force is 0";
-  if (std::any_of(contacts.begin(), contacts.end(), opens))
+  if (std::ranges::none_of(contacts, frictional)) return "which acts everywhere";
+  if (std::ranges::all_of(contacts, opens)) return "open where the normal force is 0";
+  if (std::ranges::any_of(contacts, opens))
     return "open where the normal force is 0, if it has a normal direction";
-  return std::all_of(contacts.begin(), contacts.end(), frictional) ? "always closed"
-                                                                   : "which acts everywhere";
+  return std::ranges::all_of(contacts, frictional) ? "always closed" : "which acts everywhere";
 }
 
 std::string gap_text(const std::vector<SceneContact>& contacts, const std::string& unit) {
@@ -60,7 +59,7 @@ std::string gap_text(const std::vector<SceneContact>& contacts, const std::strin
     if (has_gap(one.law) || acts_in_plane(one.law)) gaps.push_back(one.gap);
   if (gaps.empty()) return acting_text(contacts);
   const auto same = [&](const SceneContact& one) { return one.same_law(contacts.front()); };
-  if (std::all_of(contacts.begin(), contacts.end(), same))
+  if (std::ranges::all_of(contacts, same))
     if (const std::string both = two_gaps_text(contacts.front(), unit); !both.empty()) return both;
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
   if (*least == *most) return "gap " + quantity(*least, unit);
@@ -68,13 +67,12 @@ std::string gap_text(const std::vector<SceneContact>& contacts, const std::strin
 }
 
 std::string law_text(const std::vector<SceneContact>& contacts) {
-  if (std::all_of(contacts.begin(), contacts.end(),
-                  [](const SceneContact& one) { return is_rigid(one.law); }))
+  if (std::ranges::all_of(contacts, [](const SceneContact& one) { return is_rigid(one.law); }))
     return contacts.front().values.contains("restitution") ? "impacts against a rigid obstacle"
                                                            : "rigid obstacle";
   std::vector<std::string> names;
   for (const SceneContact& one : contacts)
-    if (std::find(names.begin(), names.end(), one.law) == names.end()) names.push_back(one.law);
+    if (std::ranges::find(names, one.law) == names.end()) names.push_back(one.law);
   return fmt::format("{} law{}", fmt::join(names, " and "), names.size() == 1 ? "" : "s");
 }
 

@@ -17,12 +17,11 @@ struct Loop {
 
 /// The contacts that dissipate most energy, in the order of the contacts.
 std::vector<Loop> loops_of(std::vector<FrictionMeasures> contacts) {
-  std::stable_sort(contacts.begin(), contacts.end(),
-                   [](const FrictionMeasures& a, const FrictionMeasures& b) { return a.work > b.work; });
+  std::ranges::stable_sort(
+      contacts, [](const FrictionMeasures& a, const FrictionMeasures& b) { return a.work > b.work; });
   contacts.erase(contacts.begin() + std::min(std::ssize(contacts), std::ptrdiff_t{most_loops}),
                  contacts.end());
-  std::sort(contacts.begin(), contacts.end(),
-            [](const FrictionMeasures& a, const FrictionMeasures& b) { return a.number < b.number; });
+  std::ranges::sort(contacts, {}, &FrictionMeasures::number);
   std::vector<Loop> loops;
   for (const FrictionMeasures& one : contacts)
     for (int i = 0; i < one.law.tangents() && loops.size() < most_loops; ++i)
@@ -83,8 +82,8 @@ void add_states(Figure& figure, const std::vector<FrictionMeasures>& contacts, c
   panel.x.lower = start;
   panel.x.upper = start + 1.0;
   for (const auto& [label, colour] : {std::pair{"stick", stick_colour}, std::pair{"slip", slip_colour}})
-    if (std::any_of(panel.rectangles.begin(), panel.rectangles.end(),
-                    [wanted = colour](const Rectangle& one) { return one.fill == wanted; }))
+    if (std::ranges::any_of(panel.rectangles,
+                            [wanted = colour](const Rectangle& one) { return one.fill == wanted; }))
       panel.add(swatch(label, colour, start));
 }
 

@@ -14,7 +14,7 @@ std::vector<solvers::Impact> shown_impacts(const PeriodWindow& window,
     one.time = window.instant(one.time);
     impacts.push_back(one);
   }
-  std::sort(impacts.begin(), impacts.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+  std::ranges::sort(impacts, [](const auto& a, const auto& b) { return a.time < b.time; });
   return impacts;
 }
 
@@ -49,7 +49,7 @@ void add_impulses(Figure& figure, const PeriodWindow& window, const std::string&
     times.push_back(impact.time);
     impulses.push_back(impact.impulse);
   }
-  const double largest = impulses.empty() ? 0.0 : *std::max_element(impulses.begin(), impulses.end());
+  const double largest = impulses.empty() ? 0.0 : *std::ranges::max_element(impulses);
   const Scale scale = take_to_scale(impulses);
   Panel& panel = figure.add_panel(title);
   panel.x = window.axis();

@@ -58,7 +58,7 @@ void add_motion(Figure& figure, const MotionPicture& picture, const std::string&
 
 /// The 99th percentile of `values`, not empty, where single ones lie far beyond it; the largest otherwise.
 double top_of_most(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const double most = values[static_cast<std::size_t>(0.99 * static_cast<double>(values.size() - 1))];
   constexpr double far_beyond = 1.5;
   return most > 0.0 && values.back() > far_beyond * most ? most : values.back();
@@ -71,7 +71,7 @@ double top_before_the_end(const std::vector<double>& place, const std::vector<do
   const double near = 0.01 * (*most - *least);
   std::size_t left = place.size();
   while (left > 0 && std::abs(place[left - 1] - place.back()) <= near) --left;
-  const double largest = *std::max_element(values.begin(), values.end());
+  const double largest = *std::ranges::max_element(values);
   if (left == 0) return largest;
   const double before = *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(left));
   constexpr double far_beyond = 1.5;
@@ -105,7 +105,7 @@ std::vector<double> displacements_of(const std::vector<SweepLine>& lines) {
 /// The displacement up to which a sweep is drawn, of those in `values`: where the curve did not end well,
 /// neither one wild point nor an end without bound sets the axis.
 double shown_top(const Sweep& sweep, const std::vector<double>& values) {
-  if (sweep.converged()) return *std::max_element(values.begin(), values.end());
+  if (sweep.converged()) return *std::ranges::max_element(values);
   if (sweep.curve.status != solvers::SweepStatus::unbounded) return top_of_most(values);
   const auto top = [&, place = places_along(sweep.curve)](PointValue value) {
     return top_before_the_end(place, values_along(sweep.curve, value));
@@ -116,8 +116,7 @@ double shown_top(const Sweep& sweep, const std::vector<double>& values) {
 /// A stable curve of many points is thinned.
 void add_curve(Panel& panel, const Series& curve, const std::vector<solvers::PointStability>& points,
                const std::vector<PlacedPoint>& special) {
-  const bool unstable =
-      std::any_of(points.begin(), points.end(), [](const auto& point) { return point.unstable > 0; });
+  const bool unstable = std::ranges::any_of(points, [](const auto& point) { return point.unstable > 0; });
   if (unstable)
     draw_by_stability(panel, curve, points, special);
   else
@@ -211,7 +210,7 @@ namespace {
 bool vibrates_about_a_mean(const Scene& scene) {
   const auto& terms = scene.forcing.terms;
   const bool is_loaded =
-      !scene.forcing.weight.empty() || std::any_of(terms.begin(), terms.end(), [](const ForcingTerm& one) {
+      !scene.forcing.weight.empty() || std::ranges::any_of(terms, [](const ForcingTerm& one) {
         return one.harmonic == 0 && one.samples.empty();
       });
   return is_loaded || has_friction(scene) || is_rigid(scene.contact.law);
@@ -219,8 +218,8 @@ bool vibrates_about_a_mean(const Scene& scene) {
 
 bool has_gaps(const Scene& scene) {
   const std::vector<SceneContact> contacts = contacts_of(scene);
-  return std::any_of(contacts.begin(), contacts.end(),
-                     [](const SceneContact& one) { return has_gap(one.law) && !has_friction(one.law); });
+  return std::ranges::any_of(
+      contacts, [](const SceneContact& one) { return has_gap(one.law) && !has_friction(one.law); });
 }
 
 /// One entry of the legend for the parts of a branch, the series from `first` on: dashes mean the same in
@@ -229,7 +228,7 @@ void label_once(Panel& panel, std::size_t first) {
   if (panel.series.size() < first + 2) return;
   Series &stable = panel.series[first], &unstable = panel.series[first + 1];
   unstable.label = "";
-  if (std::any_of(stable.y.begin(), stable.y.end(), [](double y) { return !std::isnan(y); })) return;
+  if (std::ranges::any_of(stable.y, [](double y) { return !std::isnan(y); })) return;
   unstable.label = std::move(stable.label);
   panel.series.erase(panel.series.begin() + static_cast<std::ptrdiff_t>(first));
 }
@@ -258,7 +257,7 @@ void add_displacements_of(Panel& panel, const SweepLine& line, const std::vector
 void add_displacements_along(Figure& figure, const Scene& scene, const Sweep& sweep) {
   const std::vector<SweepLine> lines = lines_of(sweep);
   const std::vector<double> values = displacements_of(lines);
-  const double largest = *std::max_element(values.begin(), values.end());
+  const double largest = *std::ranges::max_element(values);
   const double top = shown_top(sweep, values);
   const Scale scale = axis_scale(top);
   const std::string unit = displacement_unit(scene);

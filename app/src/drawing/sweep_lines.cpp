@@ -3,8 +3,7 @@
 namespace wavebalance::app {
 
 bool SweepLine::is_unstable() const {
-  return std::any_of(stability.points.begin(), stability.points.end(),
-                     [](const auto& point) { return point.unstable > 0; });
+  return std::ranges::any_of(stability.points, [](const auto& point) { return point.unstable > 0; });
 }
 
 std::vector<double> SweepLine::vibration(std::optional<std::size_t> output, bool rms) const {

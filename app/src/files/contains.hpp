@@ -4,8 +4,6 @@
 namespace wavebalance::app {
 
 /// Whether a list holds a value.
-bool contains(const auto& list, const auto& value) {
-  return std::find(list.begin(), list.end(), value) != list.end();
-}
+bool contains(const auto& list, const auto& value) { return std::ranges::find(list, value) != list.end(); }
 
 }  // namespace wavebalance::app

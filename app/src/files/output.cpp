@@ -205,7 +205,7 @@ void OutputFiles::remove_earlier() {
   for (const std::string& name : earlier_) {
     const fs::path file = directory_ / name;
     const auto same = [&](const Staged& staged) { return staged.target == file; };
-    if (std::any_of(staged_.begin(), staged_.end(), same)) continue;
+    if (std::ranges::any_of(staged_, same)) continue;
     if (::unlink(file.c_str()) != 0 && errno != ENOENT)
       throw IoError(file, "cannot be removed: " + reason_of(errno));
   }

@@ -28,7 +28,7 @@ constexpr std::array<Prefix, 8> prefixes{{{1e9, 1e-9, "G"},
 
 /// The largest prefix up to `most` that `magnitude` reaches, else the one of the size `least`.
 const Prefix& prefix_for(double magnitude, double least, double most) {
-  return *std::find_if(prefixes.begin(), prefixes.end(), [&](const Prefix& one) {
+  return *std::ranges::find_if(prefixes, [&](const Prefix& one) {
     return one.size <= least || (one.size <= most && magnitude >= one.size);
   });
 }
@@ -60,7 +60,7 @@ Scale take_to_scale(std::vector<double>& values) {
 bool takes_prefix(std::string_view unit) {
   constexpr std::array fixed{"",     "kg m",  "mm",     "µm",      "mrad", "deg",
                              "mm/s", "deg/s", "mm/s^2", "deg/s^2", "g"};
-  return std::find(fixed.begin(), fixed.end(), unit) == fixed.end();
+  return std::ranges::find(fixed, unit) == fixed.end();
 }
 
 Scale axis_scale(double largest, std::string_view unit) {

@@ -8,7 +8,7 @@ namespace wavebalance::app {
 namespace {
 
 bool is_one_of(const std::filesystem::path& file, const std::vector<std::filesystem::path>& others) {
-  return std::any_of(others.begin(), others.end(), [&](const auto& other) {
+  return std::ranges::any_of(others, [&](const auto& other) {
     std::error_code ignored;
     return std::filesystem::equivalent(file, other, ignored);
   });

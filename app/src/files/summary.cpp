@@ -7,8 +7,7 @@
 namespace wavebalance::app {
 
 const Entry* find_entry(const Summary& summary, std::string_view name) {
-  const auto found =
-      std::find_if(summary.begin(), summary.end(), [&](const Entry& one) { return one.name == name; });
+  const auto found = std::ranges::find_if(summary, [&](const Entry& one) { return one.name == name; });
   return found == summary.end() ? nullptr : &*found;
 }
 

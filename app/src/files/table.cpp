@@ -52,7 +52,7 @@ void Table::append_row(std::vector<Cell> row) {
 bool Table::has_column(std::string_view name) const { return contains(names_, name); }
 
 std::size_t Table::index_of(std::string_view column) const {
-  const auto found = std::find(names_.begin(), names_.end(), column);
+  const auto found = std::ranges::find(names_, column);
   if (found == names_.end()) throw std::out_of_range("Table: no column " + std::string(column));
   return static_cast<std::size_t>(found - names_.begin());
 }

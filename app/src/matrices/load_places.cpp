@@ -35,7 +35,7 @@ void check_weight(const Scene& scene, const StructureFiles& files) {
 }
 
 bool is_in(const std::vector<int>& rows, int dof) {
-  return std::binary_search(rows.begin(), rows.end(), std::abs(dof) - 1);
+  return std::ranges::binary_search(rows, std::abs(dof) - 1);
 }
 
 void check_not_driven(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key) {

@@ -34,7 +34,7 @@ struct Parts {
 Parts parts_of(const SparseMatrix& mass) {
   Parts parts{{}, rows_without_mass(mass)};
   for (int row = 0; row < mass.rows(); ++row)
-    if (!std::binary_search(parts.without.begin(), parts.without.end(), row)) parts.with.push_back(row);
+    if (!std::ranges::binary_search(parts.without, row)) parts.with.push_back(row);
   return parts;
 }
 

@@ -76,7 +76,7 @@ std::vector<int> moving_rows(const Scene& scene) {
   for (const ForcingTerm& term : scene.forcing.terms)
     if (term.kind == LoadKind::base_displacement)
       for (const int dof : term.dofs) rows.push_back(std::abs(dof) - 1);
-  std::sort(rows.begin(), rows.end());
+  std::ranges::sort(rows);
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   return rows;
 }
@@ -114,7 +114,7 @@ void hold_rows(StructureFiles& files) {
   if (std::ssize(files.moving) == size)
     throw StructureFault("forcing.terms", "a base displacement moves all degrees of freedom; expected fewer");
   for (int row = 0; row < size; ++row)
-    if (!std::binary_search(files.moving.begin(), files.moving.end(), row)) files.rows.push_back(row);
+    if (!std::ranges::binary_search(files.moving, row)) files.rows.push_back(row);
   hold_moving_rows(files, files.gyroscopic, "structure.gyroscopic");
   hold_moving_rows(files, files.spin_stiffness, "structure.spin_stiffness");
   if (files.moving.empty()) return;
@@ -202,7 +202,7 @@ StructureFiles read_files(StructureFiles files) {
 /// Rows in contact have not been condensed.
 void check_touched(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key) {
   for (const int dof : dofs)
-    if (std::binary_search(files.massless.begin(), files.massless.end(), std::abs(dof) - 1))
+    if (std::ranges::binary_search(files.massless, std::abs(dof) - 1))
       throw StructureFault(
           key, fmt::format("degree of freedom {} has no mass and is condensed; expected one with mass", dof));
 }

@@ -70,7 +70,7 @@ class PeakSolver {
       heights.push_back(height_of(point.measures[output], vibration));
     }
     if (heights.empty()) return sampled;
-    const auto top = std::size_t(std::max_element(heights.begin(), heights.end()) - heights.begin());
+    const auto top = std::size_t(std::ranges::max_element(heights) - heights.begin());
     constexpr double rounding = 1e-7;
     const auto narrow = polynomial_peak(places, heights, top, 2),
                wide = polynomial_peak(places, heights, top, 3);

@@ -27,7 +27,7 @@ std::optional<PolynomialPeak> polynomial_peak(std::span<const double> places, st
   if (index < neighbours || index + neighbours >= places.size()) return std::nullopt;
   const auto x = places.subspan(index - neighbours, 2 * neighbours + 1),
              y = heights.subspan(index - neighbours, 2 * neighbours + 1);
-  if (!std::all_of(y.begin(), y.end(), [](double one) { return std::isfinite(one); })) return std::nullopt;
+  if (!std::ranges::all_of(y, [](double one) { return std::isfinite(one); })) return std::nullopt;
   std::vector<double> lengths{0.0};
   for (std::size_t i = 1; i < x.size(); ++i)
     lengths.push_back(lengths.back() +

@@ -35,7 +35,7 @@ std::string symbol(const Series& series, std::size_t index) {
 
 /// Letters that are drawn: without marks of sub- and superscripts, each UTF-8 sequence once.
 std::size_t letters_in(const std::string& label) {
-  return static_cast<std::size_t>(std::count_if(label.begin(), label.end(), [](char c) {
+  return static_cast<std::size_t>(std::ranges::count_if(label, [](char c) {
     return std::string_view("{}^_\\").find(c) == std::string_view::npos &&
            (static_cast<unsigned char>(c) & 0xC0) != 0x80;
   }));

@@ -164,7 +164,7 @@ bool has_curves(const Figure& figure) {
   for (const Panel& panel : figure.panels) {
     const bool tells = panel.heat_map && !panel.heat_map->told_rows.empty();
     if (panel.drawing || panel.z || (panel.heat_map && !tells) || !panel.frame) return false;
-    points = points || tells || std::any_of(panel.series.begin(), panel.series.end(), has_point);
+    points = points || tells || std::ranges::any_of(panel.series, has_point);
   }
   return points;
 }

@@ -68,8 +68,8 @@ std::string map_text(const HeatMap& map) {
   text += ")\nset cbrange [" + (map.from_zero ? number_text(map.least) : "-" + end) + ":" + end +
           "]\nset cblabel " + quoted(map.label) + "\nset colorbox\nset cbtics autofreq scale 0.4\n";
   const auto beyond = [&](double sign) {
-    return std::any_of(map.values.begin(), map.values.end(),
-                       [&](double value) { return sign * value > map.largest * (1.0 + 1e-9); });
+    return std::ranges::any_of(map.values,
+                               [&](double value) { return sign * value > map.largest * (1.0 + 1e-9); });
   };
   if (beyond(1.0)) text += "set cbtics add ('≥ " + end + "' " + end + ")\n";
   if (!map.from_zero && beyond(-1.0)) text += "set cbtics add ('≤ -" + end + "' -" + end + ")\n";
@@ -123,7 +123,7 @@ std::string short_axis_text(const std::string& name, const Axis& axis, const Pan
     range = "set " + name + "range [" + number_text(lower) + ":" + number_text(upper) + "]\n";
   }
   const std::vector<double> ticks = logarithmic_ticks(lower, upper);
-  const bool by_decades = std::all_of(ticks.begin(), ticks.end(), [](double tick) {
+  const bool by_decades = std::ranges::all_of(ticks, [](double tick) {
     const double exponent = std::log10(tick);
     return std::abs(exponent - std::round(exponent)) < 1e-9;
   });
@@ -246,8 +246,8 @@ std::string legend_text(const Figure& figure, const FigureLayout& layout) {
 std::string panel_text(const Panel& panel, std::size_t index, const FigureLayout& layout,
                        const std::string& letter, const std::string& title, bool aligned, bool labelled) {
   const bool framed = panel.frame && !panel.drawing;
-  const bool empty = std::none_of(panel.series.begin(), panel.series.end(),
-                                  [&](const Series& series) { return has_points(series, panel); });
+  const bool empty =
+      std::ranges::none_of(panel.series, [&](const Series& series) { return has_points(series, panel); });
   std::string text = "unset key\nunset title\nunset label\nunset arrow\nunset object\nset size noratio\n" +
                      layout.place_text(layout.panel(index)) + frame_text(framed);
   if (framed)

@@ -76,7 +76,7 @@ std::string excluded_pairs(const Table& table) {
   std::vector<std::vector<std::string>> rows{{"pairs", "why"}};
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const std::string why = cell_text(table.at(i, "failures"));
-    const auto known = std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row[1] == why; });
+    const auto known = std::ranges::find_if(rows, [&](const auto& row) { return row[1] == why; });
     if (known == rows.end())
       rows.push_back({pair_of(table, i), why});
     else

@@ -289,7 +289,7 @@ Overlay read_overlay(std::span<const fs::path> folders, const std::string& quant
   overlay.logarithmic = std::ranges::any_of(scenes, [](const Scene& scene) { return scene.plot.log; });
   overlay.gap = common_gap(first);
   overlay.axis = sweep_axis(first);
-  const bool over_time = std::all_of(folders.begin(), folders.end(), is_response);
+  const bool over_time = std::ranges::all_of(folders, is_response);
   for (std::size_t i = 0; i < folders.size(); ++i) {
     const Scene& scene = scenes[i];
     require_same_structure(first, scene, folders[i]);

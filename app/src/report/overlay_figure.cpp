@@ -9,7 +9,7 @@ namespace wavebalance::app {
 namespace {
 
 bool any_number(const Series& series) {
-  return std::any_of(series.y.begin(), series.y.end(), [](double value) { return std::isfinite(value); });
+  return std::ranges::any_of(series.y, [](double value) { return std::isfinite(value); });
 }
 
 void draw(Panel& panel, const OverlayCurve& curve, Colour colour, double factor) {

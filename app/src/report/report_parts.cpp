@@ -96,8 +96,7 @@ std::vector<std::vector<std::string>> shown_rows(const Table& table) {
     std::vector<std::string> texts;
     for (std::size_t i = 0; i < table.rows(); ++i)
       texts.push_back(rounded_text(table.at(i, column), place ? 10 : 6));
-    if (std::all_of(texts.begin(), texts.end(), [](const std::string& text) { return text.empty(); }))
-      continue;
+    if (std::ranges::all_of(texts, [](const std::string& text) { return text.empty(); })) continue;
     rows[0].push_back(column);
     for (std::size_t i = 0; i < texts.size(); ++i) rows[i + 1].push_back(texts[i]);
   }
@@ -118,7 +117,7 @@ std::string files_list(const std::vector<RecordFile>& files) {
 }
 
 bool holds_file(const std::vector<RecordFile>& files, const std::string& name) {
-  return std::any_of(files.begin(), files.end(), [&](const RecordFile& file) { return file.name == name; });
+  return std::ranges::any_of(files, [&](const RecordFile& file) { return file.name == name; });
 }
 
 std::string sentence(std::string about) {

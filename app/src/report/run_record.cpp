@@ -95,8 +95,7 @@ Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::ve
     if (!name.empty()) return name + of_several;
     const std::string base = std::filesystem::path(file).filename().string();
     const auto taken = [&](const std::string& one) {
-      return std::any_of(files.begin(), files.end(),
-                         [&](const RecordFile& other) { return other.name == one; });
+      return std::ranges::any_of(files, [&](const RecordFile& other) { return other.name == one; });
     };
     name = std::string(copied) + base;
     for (int number = 2; taken(name); ++number) name = fmt::format("{}{}_{}", copied, number, base);
@@ -152,8 +151,8 @@ void check_run_output(const RunArguments& arguments, const Scene& scene) {
 
 void write_run_files(OutputFiles& output, const RunFiles& files, const InputFiles& inputs) {
   const auto writes = [&](const std::string& name) {
-    return name == "summary.json" || std::any_of(files.files.begin(), files.files.end(),
-                                                 [&](const auto& file) { return file.name == name; });
+    return name == "summary.json" ||
+           std::ranges::any_of(files.files, [&](const auto& file) { return file.name == name; });
   };
   require_replaceable(output.directory(), writes, inputs);
   output.replace(files_of_record(output.directory() / "summary.json"));

@@ -48,7 +48,7 @@ std::string picture(const std::vector<RecordFile>& files, const std::string& svg
 /// The picture of the record.
 std::string record_picture(const std::vector<RecordFile>& files, const std::string& heading) {
   const auto drawn =
-      std::find_if(files.begin(), files.end(), [](const auto& file) { return file.name.ends_with(".svg"); });
+      std::ranges::find_if(files, [](const auto& file) { return file.name.ends_with(".svg"); });
   return drawn == files.end() ? "<p>There is no picture: gnuplot was not found.</p>\n"
                               : picture(files, drawn->name, heading);
 }
@@ -104,8 +104,8 @@ std::string motions_of_points(const Record& record, const std::vector<RecordFile
 
 /// The box in which motion.js moves the bar, where its data are among the files.
 std::string motion(const std::vector<RecordFile>& files) {
-  const auto found = std::find_if(files.begin(), files.end(),
-                                  [](const auto& file) { return file.name.ends_with(".motion.js"); });
+  const auto found =
+      std::ranges::find_if(files, [](const auto& file) { return file.name.ends_with(".motion.js"); });
   return found == files.end()
              ? ""
              : fmt::format("<h3>Motion</h3>\n<div class=\"motion\" data-motion=\"{}\"></div>\n", found->name);

@@ -102,7 +102,7 @@ void append_friction(std::vector<std::string>& sentences, const Summary& summary
                             slip = contacts.numbers("slip_fraction"),
                             open = contacts.numbers("open_fraction");
   const auto any = [](const std::vector<double>& shares) {
-    return std::count_if(shares.begin(), shares.end(), [](double share) { return share > 0.0; });
+    return std::ranges::count_if(shares, [](double share) { return share > 0.0; });
   };
   for (std::size_t i = 0; i < contacts.rows() && contacts.rows() <= few; ++i)
     sentences.push_back(fmt::format("{} sticks for {} of the period, slips for {} and is open for {}.",

@@ -60,8 +60,7 @@ std::pair<std::ptrdiff_t, std::string> type_in_words(const std::string& type) {
        "Krein collisions, where two pairs of multipliers meet on the unit circle and leave it: "
        "flutter begins"},
       {"grazing", "Grazing points, where a contact interval is created, destroyed, split or merged"}};
-  const auto found =
-      std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.first == type; });
+  const auto found = std::ranges::find_if(known, [&](const auto& one) { return one.first == type; });
   return {found - known.begin(), found == known.end() ? spaced_words(type) : found->second};
 }
 

@@ -123,9 +123,8 @@ std::string quantiles_html(const Study& study, const Summary& summary) {
   const Table* table = table_of(summary, "quantiles");
   if (table == nullptr) return "";
   std::vector<std::vector<std::string>> rows{table->columns()};
-  const bool varies_frequency =
-      std::any_of(study.parameters.begin(), study.parameters.end(),
-                  [](const StudyParameter& one) { return one.key == "forcing.frequency"; });
+  const bool varies_frequency = std::ranges::any_of(
+      study.parameters, [](const StudyParameter& one) { return one.key == "forcing.frequency"; });
   for (std::size_t i = 0; i < table->rows(); ++i) {
     const std::string name = cell_text(table->at(i, "quantity"));
     if (is_of_the_solver(name) || (varies_frequency && name == "frequency_Hz")) continue;

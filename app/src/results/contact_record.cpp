@@ -134,8 +134,8 @@ void append_events(Record& record, const Response& response, double frequency) {
     table.append_row(row_of(one.time * frequency, one.contact + 1, state_name(kind), one.impulse, one.speed));
   }
   for (std::size_t c = 0; c < flow.machines.size(); ++c) {
-    const bool changes = std::any_of(flow.events.begin(), flow.events.end(),
-                                     [&](const solvers::FlowEvent& one) { return one.contact == int(c); });
+    const bool changes = std::ranges::any_of(
+        flow.events, [&](const solvers::FlowEvent& one) { return one.contact == int(c); });
     if (!changes && flow.machines[c].law->kind(flow.states[c]) == solvers::ContactState::stick)
       warn(record,
            "Contact {} sticks all the time. Its position depends on the initial state: contacts at "
@@ -198,7 +198,7 @@ void append_equivalent_damping(Record& record, const Scene& scene, const Structu
   if (!has_friction(scene)) return;
   // A surface that moves drives the structure, too.
   const std::vector<SceneContact> contacts = contacts_of(scene);
-  const bool drives = std::any_of(contacts.begin(), contacts.end(), [](const SceneContact& one) {
+  const bool drives = std::ranges::any_of(contacts, [](const SceneContact& one) {
     return contact::number_or(one.values, "surface_speed", 0.0) != 0.0;
   });
   const auto* work = value_in<double>(record.summary, quantities::friction_work.name);

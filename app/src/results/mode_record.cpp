@@ -46,7 +46,7 @@ std::vector<std::string> all_resonances(const Backbone& curve) {
   std::vector<std::string> names;
   for (const Interruption& gap : curve.interruptions)
     for (const auto& name : gap.resonances)
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   return names;
 }
 

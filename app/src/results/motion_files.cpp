@@ -147,8 +147,8 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
                     const std::vector<CurveMotion>& motions) {
   if (scene.analysis.motion_at.empty()) return;
   const SweepAxis axis = sweep_axis(sweep);
-  const bool with_phases = std::any_of(motions.begin(), motions.end(),
-                                       [](const CurveMotion& motion) { return motion.phases.has_value(); });
+  const bool with_phases =
+      std::ranges::any_of(motions, [](const CurveMotion& motion) { return motion.phases.has_value(); });
   std::vector<Summary> rows;
   for (const CurveMotion& motion : motions) {
     rows.push_back(motion_row(scene, motion, axis, with_phases));
@@ -164,8 +164,7 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
     warn(record, "analysis.motion_at: the sweep was interrupted before these motions were computed: {}.",
          fmt::join(sweep.motions_left_out, ", "));
   for (const double place : scene.analysis.motion_at.places)
-    if (sweep.motions_left_out.empty() &&
-        std::none_of(motions.begin(), motions.end(), [&](const CurveMotion& motion) {
+    if (sweep.motions_left_out.empty() && std::ranges::none_of(motions, [&](const CurveMotion& motion) {
           return motion.at == axis.quantity && motion.place == place;
         }))
       warn(record, "analysis.motion_at: the curve does not reach {} {}; no motion is written for it.",

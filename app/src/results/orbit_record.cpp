@@ -15,7 +15,7 @@ namespace {
 /// The first unbalance that turns in a plane of two rows; null without.
 const ForcingTerm* turning_unbalance(const Scene& scene) {
   const auto& terms = scene.forcing.terms;
-  const auto found = std::find_if(terms.begin(), terms.end(), [](const ForcingTerm& term) {
+  const auto found = std::ranges::find_if(terms, [](const ForcingTerm& term) {
     return term.kind == LoadKind::unbalance && term.dofs.size() == 2;
   });
   return found == terms.end() ? nullptr : &*found;

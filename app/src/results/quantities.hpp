@@ -109,8 +109,7 @@ inline constexpr std::array peak_places{
 
 /// For a curve over a frequency or an amplitude in `unit`.
 constexpr const Quantity& peak_place(std::string_view unit) {
-  return *std::find_if(peak_places.begin(), peak_places.end(),
-                       [&](const Quantity& one) { return one.unit == unit; });
+  return *std::ranges::find_if(peak_places, [&](const Quantity& one) { return one.unit == unit; });
 }
 
 /// Where the vibration of contacts along a curve is largest.
@@ -124,8 +123,7 @@ inline constexpr std::array vibration_places{
 
 /// For a curve over a frequency or an amplitude in `unit`.
 constexpr const Quantity& vibration_place(std::string_view unit) {
-  return *std::find_if(vibration_places.begin(), vibration_places.end(),
-                       [&](const Quantity& one) { return one.unit == unit; });
+  return *std::ranges::find_if(vibration_places, [&](const Quantity& one) { return one.unit == unit; });
 }
 
 /// The quantity with words that a column of a table holds; null for others.

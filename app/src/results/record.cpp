@@ -86,8 +86,8 @@ Record stepping_record(const Scene& scene, const StructureModel& model, const An
 }
 
 const AnalysisPart& part_of(AnalysisType type) {
-  return *std::find_if(analysis_parts.begin(), analysis_parts.end(),
-                       [type](const AnalysisPart& part) { return part.type == type; });
+  return *std::ranges::find_if(analysis_parts,
+                               [type](const AnalysisPart& part) { return part.type == type; });
 }
 
 namespace {

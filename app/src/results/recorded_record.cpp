@@ -10,8 +10,8 @@ namespace wavebalance::app {
 namespace {
 
 void replace(Summary& summary, const Quantity& quantity, SummaryValue value) {
-  const auto found = std::find_if(summary.begin(), summary.end(),
-                                  [&](const Entry& entry) { return entry.name == quantity.name; });
+  const auto found =
+      std::ranges::find_if(summary, [&](const Entry& entry) { return entry.name == quantity.name; });
   if (found != summary.end()) found->value = std::move(value);
 }
 

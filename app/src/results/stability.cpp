@@ -25,11 +25,9 @@ std::vector<double> folds_of(const solvers::CurveStability& stability, solvers::
 /// Points where contact begins may hide no fold.
 bool folds_are_known(const solvers::CurveStability& stability) {
   using solvers::StabilityStatus;
-  return !stability.points.empty() &&
-         std::all_of(stability.points.begin(), stability.points.end(), [](const auto& point) {
-           return point.status == StabilityStatus::converged ||
-                  point.status == StabilityStatus::too_few_samples;
-         });
+  return !stability.points.empty() && std::ranges::all_of(stability.points, [](const auto& point) {
+    return point.status == StabilityStatus::converged || point.status == StabilityStatus::too_few_samples;
+  });
 }
 
 /// Rows of bifurcation and grazing points, each after `first`. Where the structure has no motion near there
@@ -67,7 +65,7 @@ void warn_of_quasi_periodic_motions(Record& record, const std::vector<solvers::S
   for (const auto& point : points) {
     if (point.type != solvers::SpecialPointType::neimark_sacker) continue;
     const std::string place = short_number(parameter_of(point, sweep.curve.parameter), 6);
-    if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
+    if (std::ranges::find(places, place) == places.end()) places.push_back(place);
   }
   if (places.empty()) return;
   warn(record,
@@ -145,7 +143,7 @@ namespace {
 /// unstable.
 void append_status_along(Record& record, const Sweep& sweep, bool complete) {
   const StabilityAlong along = sweep.stability_of(0);
-  const auto count = [&](auto is) { return std::count_if(along.points.begin(), along.points.end(), is); };
+  const auto count = [&](auto is) { return std::ranges::count_if(along.points, is); };
   const auto known = count([](const auto& point) { return point.unstable >= 0; });
   const std::int64_t left = std::ssize(sweep.curve.points) - known;
   const bool partly = complete && known > 0 && left > 0;

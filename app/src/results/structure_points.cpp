@@ -14,14 +14,14 @@ bool is_known(const solvers::NearStructurePoint& near) {
 }
 
 std::int64_t count_of(const solvers::StructurePoints& points, StructurePointStatus status) {
-  return std::count_if(points.of_balance.begin(), points.of_balance.end(),
-                       [status](const auto& near) { return near.status == status; });
+  return std::ranges::count_if(points.of_balance,
+                               [status](const auto& near) { return near.status == status; });
 }
 
 /// How many points of the balance are nearest to an exact one.
 std::int64_t copies_of(const solvers::StructurePoints& points, std::size_t event) {
-  return std::count_if(points.of_balance.begin(), points.of_balance.end(),
-                       [event](const auto& near) { return is_known(near) && near.event == event; });
+  return std::ranges::count_if(points.of_balance,
+                               [event](const auto& near) { return is_known(near) && near.event == event; });
 }
 
 /// Uniform over the period.
@@ -74,8 +74,9 @@ bool is_jump(solvers::SpecialPointType type) {
 /// For example an exact fold next to a grazing, which the balance does not resolve.
 std::optional<double> left_out_beside(const solvers::StructurePoints& structure, std::size_t event) {
   const auto has_it = [&](std::size_t other) {
-    return std::any_of(structure.of_balance.begin(), structure.of_balance.end(),
-                       [&](const auto& near) { return near.event == other && is_matched(near.status); });
+    return std::ranges::any_of(structure.of_balance, [&](const auto& near) {
+      return near.event == other && is_matched(near.status);
+    });
   };
   for (const std::size_t other : {event - 1, event + 1})
     if (other < structure.events.size() && !is_jump(structure.events[other].type) && !has_it(other))

@@ -21,9 +21,8 @@ Summary solution_entries(bool converged, const std::string& status, double resid
 }
 
 void insert_wall_seconds(Summary& summary, double seconds) {
-  const auto place = std::find_if(summary.begin(), summary.end(), [](const Entry& entry) {
-    return entry.name == quantities::solve_seconds.name;
-  });
+  const auto place = std::ranges::find_if(
+      summary, [](const Entry& entry) { return entry.name == quantities::solve_seconds.name; });
   summary.insert(place, Entry(quantities::wall_seconds, seconds));
 }
 
@@ -111,7 +110,7 @@ void warn_of_unbalanced_load(Record& record, const StructureModel& model) {
   for (Eigen::Index i = 0; i < moved.cols(); ++i) {
     Eigen::Index row = 0;
     moved.col(i).cwiseAbs().maxCoeff(&row);
-    if (std::find(rows.begin(), rows.end(), row + 1) == rows.end()) rows.push_back(row + 1);
+    if (std::ranges::find(rows, row + 1) == rows.end()) rows.push_back(row + 1);
   }
   warn(record,
        "The structure is free to move along {} rigid motion{}, which move degree{} of freedom "
@@ -187,8 +186,8 @@ void append_start(Record& record, const StartMotion& start, bool found, double d
 
 void set_warnings(Record& record) {
   const std::string_view name = quantities::warnings.name;
-  const auto found = std::find_if(record.summary.begin(), record.summary.end(),
-                                  [name](const Entry& entry) { return entry.name == name; });
+  const auto found =
+      std::ranges::find_if(record.summary, [name](const Entry& entry) { return entry.name == name; });
   if (found != record.summary.end())
     *found = Entry(quantities::warnings, record.warnings);
   else

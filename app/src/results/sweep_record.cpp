@@ -25,10 +25,10 @@ void append_exact_of_points(Record& record, const Sweep& sweep) {
   for (const ExactAlongSweep& curve : sweep.phases)
     points.insert(points.end(), curve.points.begin(), curve.points.end());
   if (points.empty()) return;
-  const auto found = std::count_if(points.begin(), points.end(), [](const ExactAlongSweep::Point& point) {
+  const auto found = std::ranges::count_if(points, [](const ExactAlongSweep::Point& point) {
     return point && point->status == solvers::ExactStatus::converged;
   });
-  const auto none = std::count_if(points.begin(), points.end(), was_not_found);
+  const auto none = std::ranges::count_if(points, was_not_found);
   const auto all = static_cast<std::int64_t>(points.size());
   record.add("largest_error_of_displacement", largest_of(points, displacement_error));
   record.add("largest_error_of_force", largest_of(points, force_error));
@@ -119,9 +119,8 @@ void append_impacts(Record& record, const Sweep& sweep) {
 double largest_force(const Scene& scene, const solvers::FrequencySweep& curve, double displacement) {
   if (curve.points.empty() || solves_by_impacts(scene)) return missing;
   const std::vector<SceneContact> contacts = contacts_of(scene);
-  const bool one = std::all_of(contacts.begin(), contacts.end(), [&](const SceneContact& other) {
-    return !other.pair && other.same_law(contacts.front());
-  });
+  const bool one = std::ranges::all_of(
+      contacts, [&](const SceneContact& other) { return !other.pair && other.same_law(contacts.front()); });
   const std::string& law = scene.contact.law;
   if (one && curve.form != solvers::ContactForm::force && !is_damped(law) && !acts_on_both_sides(law))
     return make_laws(scene)[0].force(displacement);
@@ -173,8 +172,7 @@ PeakResolution peak_resolution(std::span<const double> places, std::span<const d
 
 void leave_out_contact_fractions(const Scene& scene, Sweep& sweep) {
   const std::vector<SceneContact> contacts = contacts_of(scene);
-  if (std::none_of(contacts.begin(), contacts.end(),
-                   [](const SceneContact& one) { return acts_everywhere(one.law); }))
+  if (std::ranges::none_of(contacts, [](const SceneContact& one) { return acts_everywhere(one.law); }))
     return;
   const auto leave_out = [](solvers::FrequencySweep& curve) {
     for (solvers::SweepPoint& point : curve.points) point.contact_fraction = missing;

@@ -128,8 +128,7 @@ std::string direction_name(const SceneContact& contact) {
 }
 
 bool has_directions(const std::vector<SceneContact>& contacts) {
-  return std::any_of(contacts.begin(), contacts.end(),
-                     [](const SceneContact& one) { return one.directions > 1; });
+  return std::ranges::any_of(contacts, [](const SceneContact& one) { return one.directions > 1; });
 }
 
 namespace {
@@ -204,8 +203,8 @@ bool has_growing_normal_load(const Contact& contact) {
                                  values.contains(table_of_normal_load));
   };
   return grows(contact.law, contact.values) ||
-         std::any_of(contact.pairs.begin(), contact.pairs.end(),
-                     [&](const ContactPair& pair) { return grows(pair.law, pair.values); });
+         std::ranges::any_of(contact.pairs,
+                             [&](const ContactPair& pair) { return grows(pair.law, pair.values); });
 }
 
 std::vector<SceneContact> contacts_of(const Scene& scene, std::optional<double> frequency) {
@@ -239,7 +238,7 @@ bool has_friction(const Scene& scene) {
 
 double common_gap(const Scene& scene) {
   const std::vector<SceneContact> contacts = contacts_of(scene);
-  const bool one = std::all_of(contacts.begin(), contacts.end(), [&](const SceneContact& other) {
+  const bool one = std::ranges::all_of(contacts, [&](const SceneContact& other) {
     return has_gap(other.law) && other.gap == contacts.front().gap;
   });
   return one && !contacts.empty() ? contacts.front().gap : std::numeric_limits<double>::quiet_NaN();

@@ -47,7 +47,7 @@ std::span<const OutputUnit> units_of(OutputQuantity quantity) {
 
 template <class Enum, std::size_t Size>
 bool take_word(std::vector<std::string>& words, const std::array<const char*, Size>& names, Enum& value) {
-  const auto found = words.empty() ? names.end() : std::find(names.begin(), names.end(), words.front());
+  const auto found = words.empty() ? names.end() : std::ranges::find(names, words.front());
   if (found == names.end()) return false;
   value = static_cast<Enum>(found - names.begin());
   words.erase(words.begin());

@@ -29,7 +29,7 @@ class PairReader {
  private:
   const DocumentEntry* entry(std::string_view name) const { return document_.find(section_, name); }
   const SceneKey& key(std::string_view name) const {
-    return *std::find_if(keys_.begin(), keys_.end(), [&](const SceneKey& one) { return one.name == name; });
+    return *std::ranges::find_if(keys_, [&](const SceneKey& one) { return one.name == name; });
   }
 
   [[noreturn]] void fail_without(std::string_view name, const std::string& more) const {
@@ -79,7 +79,7 @@ class PairReader {
     if (one.weights.size() != one.dofs.size())
       fail_at(document_, *weights,
               "there are " + std::to_string(one.weights.size()) + "; expected a list of numbers" + one_each);
-    if (std::all_of(one.weights.begin(), one.weights.end(), [](double weight) { return weight == 0.0; }))
+    if (std::ranges::all_of(one.weights, [](double weight) { return weight == 0.0; }))
       fail_at(document_, *weights, "all are zero; expected a direction, with one that is not");
   }
 
@@ -150,8 +150,7 @@ namespace {
 /// The first of the laws of pairs that is one, before others a rigid one; nullptr where there is none.
 const DocumentEntry* first_law(const Document& document) {
   const std::vector<SceneKey> keys = pair_keys(0);
-  const auto law =
-      std::find_if(keys.begin(), keys.end(), [](const SceneKey& key) { return key.name == "law"; });
+  const auto law = std::ranges::find_if(keys, [](const SceneKey& key) { return key.name == "law"; });
   const DocumentEntry* first = nullptr;
   for (const DocumentEntry& entry : document.entries) {
     const auto* text = std::get_if<std::string>(&entry.value);

@@ -72,8 +72,8 @@ bool reads_signal(std::string_view law) { return contact::law_entry(law).reads_s
 namespace {
 
 bool names(const Contact& contact, bool (*wanted)(std::string_view)) {
-  return wanted(contact.law) || std::any_of(contact.pairs.begin(), contact.pairs.end(),
-                                            [&](const ContactPair& pair) { return wanted(pair.law); });
+  return wanted(contact.law) ||
+         std::ranges::any_of(contact.pairs, [&](const ContactPair& pair) { return wanted(pair.law); });
 }
 
 }  // namespace
@@ -91,8 +91,7 @@ namespace {
 template <class Kind>
 bool rubs(const Contact& contact, Kind kind) {
   const auto is_it = [&](const auto& one) { return has_friction(one.law) && kind(one.values); };
-  return contact.pairs.empty() ? is_it(contact)
-                               : std::any_of(contact.pairs.begin(), contact.pairs.end(), is_it);
+  return contact.pairs.empty() ? is_it(contact) : std::ranges::any_of(contact.pairs, is_it);
 }
 
 }  // namespace
@@ -120,8 +119,8 @@ bool moves_by_events(const Scene& scene) {
   const bool free = scene.structure.matrices.free;
   if (kind_of(scene.analysis.type).motions_by == MotionsBy::events) return true;
   if (has_impacts(contact))
-    return free || std::any_of(contact.pairs.begin(), contact.pairs.end(),
-                               [](const ContactPair& pair) { return !is_rigid(pair.law); });
+    return free ||
+           std::ranges::any_of(contact.pairs, [](const ContactPair& pair) { return !is_rigid(pair.law); });
   if (free && (names_friction(contact) || names_coupled_rows(contact))) return true;
   if (names_friction_of_states(contact)) return true;
   const bool kept = contact.mass == ContactMass::keep ||
@@ -148,8 +147,8 @@ Scene with_longer_period(Scene scene, int times) {
 }
 
 const AnalysisKind& kind_of(AnalysisType type) {
-  return *std::find_if(analysis_kinds.begin(), analysis_kinds.end(),
-                       [type](const AnalysisKind& kind) { return kind.type == type; });
+  return *std::ranges::find_if(analysis_kinds,
+                               [type](const AnalysisKind& kind) { return kind.type == type; });
 }
 
 bool integrates_in_time(AnalysisType type) { return kind_of(type).motions_by == MotionsBy::time; }

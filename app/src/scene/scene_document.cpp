@@ -105,8 +105,7 @@ const DocumentEntry* Document::find(std::string_view section, std::string_view k
 }
 
 bool Document::has_section(std::string_view section) const {
-  return std::any_of(sections.begin(), sections.end(),
-                     [&](const DocumentSection& one) { return one.name == section; });
+  return std::ranges::any_of(sections, [&](const DocumentSection& one) { return one.name == section; });
 }
 
 int Document::section_line(std::string_view section) const {
@@ -116,9 +115,8 @@ int Document::section_line(std::string_view section) const {
 }
 
 std::size_t count_tables(const Document& document, const std::string& name, int most) {
-  const auto count =
-      std::count_if(document.sections.begin(), document.sections.end(),
-                    [&](const DocumentSection& one) { return one.name.starts_with(name + "["); });
+  const auto count = std::ranges::count_if(
+      document.sections, [&](const DocumentSection& one) { return one.name.starts_with(name + "["); });
   if (count > most)
     throw SceneError({document.name, document.section_line(name + "[1]"), "", name, "",
                       "there are " + std::to_string(count) + "; expected at most " + std::to_string(most)});
@@ -137,8 +135,7 @@ Document parse_document(std::string_view text, const std::string& name) {
       document.entries.push_back(entry_of("", std::string(key.str()), node));
   }
   // Errors are reported in the order of the file, not of the alphabet.
-  std::stable_sort(document.entries.begin(), document.entries.end(),
-                   [](const DocumentEntry& a, const DocumentEntry& b) { return a.line < b.line; });
+  std::ranges::stable_sort(document.entries, {}, &DocumentEntry::line);
   return document;
 }
 
@@ -178,7 +175,7 @@ void apply_overrides(Document& document, std::span<const std::string> overrides)
     const auto [section, key] = split_name(without_blanks(text.substr(0, equals)));
     DocumentEntry entry = parse_override(text, section, key, text.substr(equals + 1));
     const auto same = [&](const DocumentEntry& other) { return other.full_name() == entry.full_name(); };
-    const auto place = std::find_if(document.entries.begin(), document.entries.end(), same);
+    const auto place = std::ranges::find_if(document.entries, same);
     if (place == document.entries.end())
       document.entries.push_back(std::move(entry));
     else

@@ -34,7 +34,7 @@ inline MotionAt motion_at(const std::vector<NumberOrText>& entries) {
   MotionAt at;
   for (const NumberOrText& entry : entries) {
     const auto* place = std::get_if<double>(&entry);
-    const auto known = std::find(at.places.begin(), at.places.end(), place ? *place : 0.0);
+    const auto known = std::ranges::find(at.places, place ? *place : 0.0);
     if (place == nullptr)
       (std::get<std::string>(entry) == "peak" ? at.peak : at.special) = true;
     else if (known == at.places.end())

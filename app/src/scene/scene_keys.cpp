@@ -31,15 +31,15 @@ Condition Condition::unless(std::string_view key) const {
 bool Condition::holds(const Scene& scene) const { return broken_by(scene).empty(); }
 
 bool Condition::concerns(std::string_view key) const {
-  return contains(unless_, key) || std::any_of(clauses_.begin(), clauses_.end(),
-                                               [&](const Clause& clause) { return clause.key == key; });
+  return contains(unless_, key) ||
+         std::ranges::any_of(clauses_, [&](const Clause& clause) { return clause.key == key; });
 }
 
 std::string_view Condition::broken_by(const Scene& scene) const {
   for (const std::string_view name : unless_)
     if (const SceneKey* key = find_scene_key(name); key && key->get(scene) != key->get(Scene{})) return name;
-  const auto broken = std::find_if(clauses_.begin(), clauses_.end(),
-                                   [&](const Clause& clause) { return !clause.holds(scene); });
+  const auto broken =
+      std::ranges::find_if(clauses_, [&](const Clause& clause) { return !clause.holds(scene); });
   return broken == clauses_.end() ? std::string_view{} : broken->key;
 }
 

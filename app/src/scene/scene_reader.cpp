@@ -37,7 +37,7 @@ std::vector<std::string> known_names(const std::string& section) {
 
 bool is_section(const std::string& name) {
   const auto keys = scene_keys();
-  return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.section == name; });
+  return std::ranges::any_of(keys, [&](const SceneKey& key) { return key.section == name; });
 }
 
 /// The error text for an unknown name, with the nearest known name as a suggestion, written by `shown`.

@@ -132,7 +132,7 @@ std::vector<Varying> varying_parameters(const Study& study, const Table& table) 
     }
     if (texts.size() < 2) continue;
     one.distinct = one.numbers;
-    std::sort(one.distinct.begin(), one.distinct.end());
+    std::ranges::sort(one.distinct);
     one.distinct.erase(std::unique(one.distinct.begin(), one.distinct.end()), one.distinct.end());
     set_unit(one);
     found.push_back(std::move(one));
@@ -180,7 +180,7 @@ Axis axis_of_map(const Varying& one) {
 
 bool draws_map(const Study& study, const std::vector<Varying>& varying) {
   return study.sampling == Sampling::grid && varying.size() == 2 &&
-         std::all_of(varying.begin(), varying.end(), [](const Varying& one) {
+         std::ranges::all_of(varying, [](const Varying& one) {
            return one.numeric && (is_uniform(one.distinct) ||
                                   (one.distinct.front() > 0.0 && is_uniform(in_decades(one.distinct))));
          });
@@ -228,7 +228,7 @@ void add_quantile_curves(Panel& panel, const Varying& x, const std::vector<doubl
   std::map<double, std::vector<double>> columns;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (std::isfinite(values[i])) columns[x.numbers[i]].push_back(values[i]);
-  for (auto& [at, column] : columns) std::sort(column.begin(), column.end());
+  for (auto& [at, column] : columns) std::ranges::sort(column);
   for (const double share : {0.05, 0.5, 0.95}) {
     Series series(percentage(share) + " of the runs are below", SeriesStyle::line);
     for (const auto& [at, column] : columns) series.append(at, quantile_of(column, share));
@@ -251,7 +251,7 @@ void add_curves(Figure& figure, const Study& study, const Table& table, const st
   const auto most = [](const Varying& a, const Varying& b) {
     return (a.numeric ? a.distinct.size() : 0) < (b.numeric ? b.distinct.size() : 0);
   };
-  const Varying& x = *std::max_element(varying.begin(), varying.end(), most);
+  const Varying& x = *std::ranges::max_element(varying, most);
   if (!x.numeric) return;
   Panel& panel = figure.add_panel("", x.label, shown.label);
   panel.x.logarithmic = x.logarithmic && x.distinct.front() > 0.0;
@@ -274,7 +274,7 @@ void add_curves(Figure& figure, const Study& study, const Table& table, const st
 void add_distribution(Figure& figure, std::vector<double> values, const Shown& shown) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.size() < 2) return;
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   std::vector<double> shares;
   for (std::size_t i = 0; i < values.size(); ++i)
     shares.push_back(100.0 * static_cast<double>(i + 1) / static_cast<double>(values.size()));
@@ -359,8 +359,7 @@ Figure study_figure(const Study& study, const StudyRuns& runs, const Table& tabl
   const Shown shown = take_to_shown(quantity, values);
   const std::vector<Varying> varying = varying_parameters(study, table);
   const std::vector<Outcome> outcomes = outcomes_of(table);
-  if (varying.empty() ||
-      std::none_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+  if (varying.empty() || std::ranges::none_of(values, [](double value) { return std::isfinite(value); }))
     return figure;
   figure.title = fmt::format("{} runs", runs.size());
   const bool map = draws_map(study, varying);

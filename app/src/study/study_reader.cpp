@@ -193,7 +193,7 @@ void read_parameters(StudyTable& table, Study& study) {
   for (std::size_t i = 0; i < entries.size(); ++i) {
     study.parameters.push_back(read_parameter(*entries[i].as_table(), study.name, i, study.sampling));
     const auto same = [&](const StudyParameter& one) { return one.key == study.parameters.back().key; };
-    if (std::count_if(study.parameters.begin(), study.parameters.end(), same) > 1)
+    if (std::ranges::count_if(study.parameters, same) > 1)
       table.fail("parameters", &entries[i], study.parameters.back().key + " is there twice");
   }
 }

@@ -50,7 +50,7 @@ std::vector<double> ordered_values(const Table& table, std::size_t column) {
         cell);
     if (std::isfinite(value)) values.push_back(value);
   }
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   return values;
 }
 
@@ -109,8 +109,7 @@ Table statuses_table(const Table& table) {
   std::map<std::string, std::int64_t> counts;
   for (std::size_t i = 0; i < table.rows(); ++i) ++counts[std::get<std::string>(table.at(i, "status"))];
   std::vector<std::pair<std::string, std::int64_t>> ordered(counts.begin(), counts.end());
-  std::stable_sort(ordered.begin(), ordered.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::ranges::stable_sort(ordered, [](const auto& a, const auto& b) { return a.second > b.second; });
   Table statuses({"status", "runs"});
   for (const auto& [status, count] : ordered) statuses.append_row({status, count});
   return statuses;
@@ -187,12 +186,11 @@ std::string drawn_quantity(const Study& study, const Table& table) {
 
 StudyRecord study_record(const Study& study, const StudyRuns& runs, std::vector<StudyRow> rows,
                          const StudyOutcome& outcome, std::int64_t unreadable_lines) {
-  std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.run < b.run; });
+  std::ranges::sort(rows, [](const auto& a, const auto& b) { return a.run < b.run; });
   StudyRecord record;
   record.table = study_table(study, runs, rows);
   record.complete = std::int64_t(rows.size()) == runs.size();
-  const auto converged =
-      std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.converged; });
+  const auto converged = std::ranges::count_if(rows, [](const auto& row) { return row.converged; });
   record.converged = record.complete && converged == std::int64_t(rows.size());
   record.status = status_of(record);
   record.changes = changes_along(study, runs, rows);

@@ -97,8 +97,7 @@ class SubstructureReader {
     if (static_cast<int>(nodes_.size()) != count_)
       lines_.fail("\"** ELEMENT NODES\" lists ", nodes_.size(), " nodes; *USER ELEMENT says ", count_);
     for (int i = 1; i <= count_; ++i) {
-      const auto after =
-          std::find_if(dofs_.begin(), dofs_.end(), [i](const Dofs& one) { return one.node > i; });
+      const auto after = std::ranges::find_if(dofs_, [i](const Dofs& one) { return one.node > i; });
       if (after == dofs_.begin()) lines_.fail("the degrees of freedom below *USER ELEMENT are missing");
       for (const int direction : std::prev(after)->directions)
         labels_.push_back({nodes_[static_cast<std::size_t>(i - 1)], direction});

@@ -37,8 +37,7 @@ constexpr std::array whole_words{Word{"k", stiffness_role}, Word{"m", "mass"}, W
 
 template <std::size_t size, class Fits>
 std::string role_among(const std::array<Word, size>& words, Fits fits) {
-  const auto found =
-      std::find_if(words.begin(), words.end(), [&](const Word& one) { return fits(one.text); });
+  const auto found = std::ranges::find_if(words, [&](const Word& one) { return fits(one.text); });
   return found == words.end() ? "" : std::string(found->role);
 }
 
@@ -78,7 +77,7 @@ bool names_a_dof_map(const Path& path) {
   const Path file = matrix_place(path).file;
   constexpr std::array<std::string_view, 3> ends{".dof", ".mapping", ".csv"};
   const std::string extension = detail::lower(file.extension().string());
-  return std::find(ends.begin(), ends.end(), extension) != ends.end() && !detail::format_if_known(file);
+  return std::ranges::find(ends, extension) != ends.end() && !detail::format_if_known(file);
 }
 
 class Collector {
@@ -127,7 +126,7 @@ class Collector {
   Sparse in_rows_of_all(const Read& one) const {
     const bool named = one.matrix.rows.has_value();
     const auto is_named = [](const Read& other) { return other.matrix.rows.has_value(); };
-    if (!named && !given_map_ && std::any_of(read_.begin(), read_.end(), is_named))
+    if (!named && !given_map_ && std::ranges::any_of(read_, is_named))
       throw MatrixFileError(one.file.string() +
                             ": it names no nodes, as another file does; expected a dof map among the files");
     if (!map_) return one.matrix.matrix;
@@ -143,9 +142,8 @@ class Collector {
   }
 
   static void leave_out_held(CollectedMatrices& all) {
-    const auto stiffness =
-        std::find_if(all.matrices.begin(), all.matrices.end(),
-                     [](const CollectedMatrix& one) { return one.role == stiffness_role; });
+    const auto stiffness = std::ranges::find_if(
+        all.matrices, [](const CollectedMatrix& one) { return one.role == stiffness_role; });
     if (stiffness == all.matrices.end()) return;
     const std::vector<int> held = held_rows(stiffness->matrix);
     if (held.empty()) return;
@@ -154,7 +152,7 @@ class Collector {
     std::vector<Eigen::Triplet<double>> ones;
     std::vector<NodeDof> dofs;
     for (int row = 0; row < size; ++row) {
-      if (std::binary_search(held.begin(), held.end(), row)) continue;
+      if (std::ranges::binary_search(held, row)) continue;
       ones.emplace_back(static_cast<int>(ones.size()), row, 1.0);
       if (all.map) dofs.push_back(all.map->dof(row));
     }

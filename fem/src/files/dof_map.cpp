@@ -106,8 +106,7 @@ class DofMapReader {
   }
 
   DofMap map() {
-    std::stable_sort(found_.begin(), found_.end(),
-                     [&](const Found& a, const Found& b) { return a.row < b.row; });
+    std::ranges::stable_sort(found_, [&](const Found& a, const Found& b) { return a.row < b.row; });
     for (std::size_t i = 1; i < found_.size(); ++i)
       if (found_[i - 1].row == found_[i].row)
         fail_twice("row " + std::to_string(found_[i].row + 1), found_[i - 1].line, found_[i].line);
@@ -140,7 +139,7 @@ int direction_of(std::string_view name) {
   const std::string wanted = detail::lower(name);
   if (wanted.empty()) return 0;
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (std::find(names[i].begin(), names[i].end(), wanted) != names[i].end()) return static_cast<int>(i) + 1;
+    if (std::ranges::find(names[i], wanted) != names[i].end()) return static_cast<int>(i) + 1;
   return 0;
 }
 
@@ -161,7 +160,7 @@ DofMap::DofMap(std::vector<NodeDof> dofs) : dofs_(std::move(dofs)) {
     dof.copy = 1;
     sorted_.emplace_back(dof, static_cast<int>(sorted_.size()));
   }
-  std::sort(sorted_.begin(), sorted_.end());
+  std::ranges::sort(sorted_);
   for (std::size_t i = 1; i < sorted_.size(); ++i) {
     NodeDof &before = sorted_[i - 1].first, &dof = sorted_[i].first;
     if (before.node != dof.node || before.direction != dof.direction) continue;

@@ -21,7 +21,7 @@ LabelledEntries::Order LabelledEntries::ascending() const {
   std::vector<int> places(dofs_.size());
   std::iota(places.begin(), places.end(), 0);
   const auto dof = [&](int place) { return dofs_[static_cast<std::size_t>(place)]; };
-  std::sort(places.begin(), places.end(), [&](int a, int b) { return dof(a) < dof(b); });
+  std::ranges::sort(places, [&](int a, int b) { return dof(a) < dof(b); });
   Order order{{}, std::vector<int>(dofs_.size())};
   for (const int place : places) {
     order.rows[static_cast<std::size_t>(place)] = static_cast<int>(order.dofs.size());

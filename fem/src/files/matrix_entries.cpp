@@ -28,7 +28,7 @@ std::vector<Placed> placed(const MatrixEntries& entries, bool symmetric) {
     all.push_back(
         {above ? entry.col() : entry.row(), above ? entry.row() : entry.col(), above, entry.value()});
   }
-  std::sort(all.begin(), all.end(), [](const Placed& a, const Placed& b) {
+  std::ranges::sort(all, [](const Placed& a, const Placed& b) {
     return std::tie(a.column, a.row, a.above) < std::tie(b.column, b.row, b.above);
   });
   return all;

@@ -99,17 +99,15 @@ std::optional<MatrixFormat> format_of(const std::vector<FirstLine>& lines) {
       is_type_of_harwell_boeing(lines[2].words[0]) && !lines[3].words.empty() &&
       lines[3].words[0].front() == '(')
     return MatrixFormat::harwell_boeing;
-  const auto data = std::find_if(lines.begin(), lines.end(), [](const FirstLine& one) {
-    return !one.words.empty() && !is_comment(one.text);
-  });
+  const auto data = std::ranges::find_if(
+      lines, [](const FirstLine& one) { return !one.words.empty() && !is_comment(one.text); });
   return data == lines.end() ? std::nullopt : format_of_data(*data);
 }
 
 std::optional<MatrixFormat> format_of_extension(const std::filesystem::path& file) {
   const std::string extension = lower(file.extension().string());
   for (const KnownFormat& one : known_formats)
-    if (!extension.empty() &&
-        std::find(one.extensions.begin(), one.extensions.end(), extension) != one.extensions.end())
+    if (!extension.empty() && std::ranges::find(one.extensions, extension) != one.extensions.end())
       return one.format;
   return std::nullopt;
 }
@@ -144,8 +142,7 @@ FoundFormat detail::found_format(const std::filesystem::path& file) {
 }
 
 std::string_view to_string(MatrixFormat format) {
-  return std::find_if(known_formats.begin(), known_formats.end(),
-                      [&](const KnownFormat& one) { return one.format == format; })
+  return std::ranges::find_if(known_formats, [&](const KnownFormat& one) { return one.format == format; })
       ->name;
 }
 

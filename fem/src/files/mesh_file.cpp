@@ -31,7 +31,7 @@ constexpr std::array<std::string_view, 9> without_shape{"spring", "mass",   "das
 /// The first of some shapes with whose name a type begins.
 std::optional<Shape> first_shape(std::span<const Shape> known, std::string_view type) {
   const auto found =
-      std::find_if(known.begin(), known.end(), [&](const Shape& one) { return type.starts_with(one.name); });
+      std::ranges::find_if(known, [&](const Shape& one) { return type.starts_with(one.name); });
   return found != known.end() ? std::optional(*found) : std::nullopt;
 }
 
@@ -43,8 +43,7 @@ std::optional<Shape> shape_of(std::string_view type) {
 }
 
 bool has_no_shape(std::string_view type) {
-  return std::any_of(without_shape.begin(), without_shape.end(),
-                     [&](std::string_view one) { return type.starts_with(one); });
+  return std::ranges::any_of(without_shape, [&](std::string_view one) { return type.starts_with(one); });
 }
 
 std::vector<std::string> cells(std::string_view text) {
@@ -175,7 +174,7 @@ NumberedMesh numbered(const Found& found, const std::string& name) {
   NumberedMesh result;
   for (const Cell& cell : found.cells)
     result.nodes.insert(result.nodes.end(), cell.nodes.begin(), cell.nodes.end());
-  std::sort(result.nodes.begin(), result.nodes.end());
+  std::ranges::sort(result.nodes);
   result.nodes.erase(std::unique(result.nodes.begin(), result.nodes.end()), result.nodes.end());
   result.mesh.points.resize(3, std::ssize(result.nodes));
   for (Eigen::Index i = 0; i < std::ssize(result.nodes); ++i) {

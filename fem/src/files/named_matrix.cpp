@@ -63,8 +63,8 @@ bool has_name(const NamedMatrix& one, std::string_view name) {
 }
 
 void require_name(const std::vector<NamedMatrix>& all, const MatrixPlace& place) {
-  const auto count = std::count_if(all.begin(), all.end(),
-                                   [&](const NamedMatrix& one) { return has_name(one, place.name); });
+  const auto count =
+      std::ranges::count_if(all, [&](const NamedMatrix& one) { return has_name(one, place.name); });
   if (count == 1) return;
   throw MatrixFileError(place.file.string() + ": there " + (count == 0 ? "is no" : "are several") +
                         " matrices of the name \"" + place.name + "\"; the file holds " + names_of(all));
@@ -74,13 +74,13 @@ void require_name(const std::vector<NamedMatrix>& all, const MatrixPlace& place)
 NamedMatrix chosen(std::vector<NamedMatrix> all, const MatrixPlace& place, bool load) {
   if (!place.name.empty()) {
     require_name(all, place);
-    return std::move(*std::find_if(all.begin(), all.end(),
-                                   [&](const NamedMatrix& one) { return has_name(one, place.name); }));
+    return std::move(
+        *std::ranges::find_if(all, [&](const NamedMatrix& one) { return has_name(one, place.name); }));
   }
   if (all.size() == 1) return std::move(all.front());
   const auto fits = [&](const NamedMatrix& one) { return one.load == load; };
-  const auto found = std::find_if(all.begin(), all.end(), fits);
-  if (std::count_if(all.begin(), all.end(), fits) == 1) return std::move(*found);
+  const auto found = std::ranges::find_if(all, fits);
+  if (std::ranges::count_if(all, fits) == 1) return std::move(*found);
   const std::string example = found != all.end() ? found->name : all.front().name;
   throw MatrixFileError(place.file.string() + ": the file holds " + names_of(all) +
                         "; expected the name of one behind it, as \"" + place.file.filename().string() + "#" +

@@ -12,8 +12,8 @@ using contact::LawParameter;
 Bounds bounds_of(const contact::LawRange& range) { return {range.lower, range.upper, range.lower_excluded}; }
 
 void add(std::vector<SharedParameter>& all, const LawEntry& law, const LawParameter& parameter) {
-  const auto known = std::find_if(
-      all.begin(), all.end(), [&](const SharedParameter& one) { return one.first.name == parameter.name; });
+  const auto known =
+      std::ranges::find_if(all, [&](const SharedParameter& one) { return one.first.name == parameter.name; });
   if (known == all.end()) {
     all.push_back({parameter, {law.name}, std::string(parameter.help)});
     return;
