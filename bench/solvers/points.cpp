@@ -9,7 +9,7 @@
 
 #include "dense_system.hpp"
 #include "solver_scenes.hpp"
-#include "wavebalance/app/compare/stopwatch.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/spectral/fft.hpp"

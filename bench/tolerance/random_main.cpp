@@ -4,7 +4,7 @@
 #include "data_file.hpp"
 #include "program.hpp"
 #include "random_motions.hpp"
-#include "wavebalance/app/compare/stopwatch.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/solvers/collocation/exact_near_response.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"

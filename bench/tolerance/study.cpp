@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/compare/stopwatch.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"

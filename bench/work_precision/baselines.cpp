@@ -2,9 +2,7 @@
 
 #include "dense_system.hpp"
 #include "points.hpp"
-#include "wavebalance/app/compare/exact_study.hpp"
-#include "wavebalance/app/compare/size_study.hpp"
-#include "wavebalance/app/compare/stopwatch.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/flow/periodic_flow.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"

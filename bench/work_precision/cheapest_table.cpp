@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "wavebalance/app/compare/recommendation.hpp"
+#include "wavebalance/app/compare/comparison.hpp"
 
 namespace wavebalance::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include "picture.hpp"
 #include "points.hpp"
 #include "program.hpp"
-#include "wavebalance/app/compare/stopwatch.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/table.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "wavebalance/app/compare/comparison_figure.hpp"
+#include "wavebalance/app/compare/comparison.hpp"
 
 namespace wavebalance::bench {
 namespace {

@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "wavebalance/app/compare/reference.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::bench {
 namespace {

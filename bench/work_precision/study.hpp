@@ -2,9 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/compare/basis_pair.hpp"
-#include "wavebalance/app/compare/reference.hpp"
-#include "wavebalance/app/compare/size_study.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 
 namespace wavebalance::bench {
 

@@ -12,7 +12,6 @@
 
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/contact/exponential_law.hpp"
 #include "wavebalance/contact/linear_law.hpp"

@@ -4,7 +4,7 @@
 #include "scenes.hpp"
 #include "tables.hpp"
 #include "unlocked.hpp"
-#include "wavebalance/app/compare/comparison_record.hpp"
+#include "wavebalance/app/compare/comparison.hpp"
 
 namespace wavebalance::python {
 

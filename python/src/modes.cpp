@@ -9,7 +9,6 @@
 #include "problem.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
-#include "wavebalance/solvers/modes/damped_mode.hpp"
 #include "wavebalance/solvers/modes/mode_stability.hpp"
 
 namespace wavebalance::python {

@@ -9,9 +9,8 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "unlocked.hpp"
-#include "wavebalance/app/compare/basis_pair.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/compose/massless_contacts.hpp"
 #include "wavebalance/fem/check_structure.hpp"
 #include "wavebalance/solvers/structure/rigid_modes.hpp"
 

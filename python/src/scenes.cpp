@@ -8,7 +8,7 @@
 #include "tables.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/app/results/record.hpp"
 #include "wavebalance/fem/matrix_market.hpp"

@@ -6,8 +6,7 @@
 #include "tables.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/files/output.hpp"
-#include "wavebalance/app/study/journal.hpp"
-#include "wavebalance/app/study/study_record.hpp"
+#include "wavebalance/app/study/study.hpp"
 
 namespace wavebalance::python {
 

@@ -9,7 +9,7 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/drawing/stability_figure.hpp"
-#include "wavebalance/app/results/tables.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/report/artefact.hpp"
 
 namespace wavebalance::blade {

@@ -8,9 +8,8 @@
 #include <stdexcept>
 
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/compare/basis_pair.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::jl14 {
 

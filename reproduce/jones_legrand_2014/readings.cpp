@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/report/rule.hpp"
 
 namespace wavebalance::jl14 {

@@ -8,7 +8,6 @@
 
 #include "nyquist_resonances.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/drawing/stability_figure.hpp"
 
 namespace wavebalance::jl14 {

@@ -1,6 +1,6 @@
 // Any text loads to a scene that survives being written and read, or gives a SceneError. Lines that start
 // with "--set " are overrides, those with "--unset " keys to be left out.
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 #include <string>
 #include <string_view>

@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "analysis/analysis_parts.hpp"
-#include "wavebalance/app/analysis/exact_along_sweep.hpp"
-#include "wavebalance/app/compose/other_analysis.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"

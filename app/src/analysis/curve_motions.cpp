@@ -1,4 +1,4 @@
-#include "wavebalance/app/analysis/curve_motions.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,9 @@
-#include "wavebalance/app/analysis/damped_modes.hpp"
+#include "wavebalance/app/analysis/modes.hpp"
 
 #include <numbers>
 
-#include "wavebalance/app/analysis/friction_measures.hpp"
-#include "wavebalance/app/analysis/modes.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/compose/elastic_modes.hpp"
 
 namespace wavebalance::app {
 namespace {

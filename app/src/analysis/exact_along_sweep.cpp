@@ -1,8 +1,7 @@
-#include "wavebalance/app/analysis/exact_along_sweep.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 
 #include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 

@@ -1,4 +1,4 @@
-#include "wavebalance/app/analysis/friction_measures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 
 #include <numeric>
 

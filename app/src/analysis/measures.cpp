@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::app {

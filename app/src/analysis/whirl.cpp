@@ -1,7 +1,5 @@
 #include "wavebalance/app/analysis/whirl.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "files/missing.hpp"

@@ -1,7 +1,7 @@
 #include "wavebalance/app/attractors/bifurcation.hpp"
 
 #include "attractors/flow_rows.hpp"
-#include "wavebalance/app/compose/other_analysis.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/solvers/attractors/long_motion.hpp"
 

@@ -9,7 +9,6 @@
 #include "files/contains.hpp"
 #include "report/words.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/results/record.hpp"

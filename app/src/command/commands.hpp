@@ -4,7 +4,7 @@
 #include "report/arguments.hpp"
 #include "report/reports.hpp"
 #include "wavebalance/app/analysis/response.hpp"
-#include "wavebalance/app/compose/other_analysis.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 

@@ -4,8 +4,8 @@
 
 #include "report/page_parts.hpp"
 #include "report/reports.hpp"
-#include "wavebalance/app/compare/comparison_record.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compare/comparison.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/solvers/linalg/parallel_for.hpp"

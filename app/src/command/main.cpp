@@ -9,7 +9,7 @@
 #include "command/commands.hpp"
 #include "files/contains.hpp"
 #include "scene/spelling.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/solvers/linalg/blas_threads.hpp"

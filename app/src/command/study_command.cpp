@@ -11,7 +11,7 @@
 #include "report/reports.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
-#include "wavebalance/app/study/journal.hpp"
+#include "wavebalance/app/study/study.hpp"
 
 namespace wavebalance::app {
 namespace {

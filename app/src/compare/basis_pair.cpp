@@ -1,4 +1,4 @@
-#include "wavebalance/app/compare/basis_pair.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 
 #include "files/contains.hpp"
 #include "wavebalance/app/compose/compose.hpp"

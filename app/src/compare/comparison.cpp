@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include "wavebalance/app/analysis/response.hpp"
-#include "wavebalance/app/compare/exact_study.hpp"
-#include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
-#include "wavebalance/app/files/table.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -1,8 +1,7 @@
-#include "wavebalance/app/compare/comparison_record.hpp"
+#include "wavebalance/app/compare/comparison.hpp"
 
 #include <fmt/format.h>
 
-#include "wavebalance/app/compare/comparison_figure.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {

@@ -1,7 +1,4 @@
-#include "wavebalance/app/compare/error_measure.hpp"
-
-#include <algorithm>
-#include <cmath>
+#include "wavebalance/app/compare/solve_point.hpp"
 
 #include "scene/enum_names.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"

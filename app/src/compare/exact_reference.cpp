@@ -1,7 +1,7 @@
 #include "compare/exact_reference.hpp"
 
 #include "analysis/analysis_parts.hpp"
-#include "wavebalance/app/compare/size_study.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::app {

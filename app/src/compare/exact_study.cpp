@@ -1,4 +1,4 @@
-#include "wavebalance/app/compare/exact_study.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "wavebalance/app/compare/recommendation.hpp"
+#include "wavebalance/app/compare/comparison.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,7 @@
-#include "wavebalance/app/compare/reference.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 
 #include "compare/exact_reference.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::app {

@@ -1,4 +1,4 @@
-#include "wavebalance/app/compare/size_study.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 
 #include <iterator>
 

@@ -1,6 +1,5 @@
 #include "wavebalance/app/compare/solve_point.hpp"
 
-#include <algorithm>
 #include <iterator>
 
 namespace wavebalance::app {

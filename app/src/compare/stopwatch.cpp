@@ -1,9 +1,6 @@
-#include "wavebalance/app/compare/stopwatch.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 
 #include <time.h>
-
-#include <algorithm>
-#include <limits>
 
 namespace wavebalance::app {
 

@@ -1,11 +1,10 @@
-#include "wavebalance/app/compare/sweep_comparison.hpp"
+#include "wavebalance/app/compare/comparison.hpp"
 
 #include <bit>
 
 #include "compare/shared_observer.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
-#include "wavebalance/app/compare/size_study.hpp"
-#include "wavebalance/app/compare/stopwatch.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/linalg/parallel_for.hpp"
 

@@ -1,5 +1,3 @@
-#include "wavebalance/app/compose/elastic_modes.hpp"
-
 #include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::app {

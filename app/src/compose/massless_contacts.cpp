@@ -1,6 +1,4 @@
-#include "wavebalance/app/compose/massless_contacts.hpp"
-
-#include <algorithm>
+#include "wavebalance/app/compose/compose.hpp"
 
 #include "matrices/symmetric_part.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"

@@ -4,8 +4,6 @@
 #include "scene/scene_keys_text.hpp"
 #include "scene/scene_reader.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/compose/elastic_modes.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 

@@ -1,10 +1,9 @@
-#include "wavebalance/app/compose/other_analysis.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 #include "files/contains.hpp"
 #include "scene/scene_document.hpp"
 #include "scene/term_reader.hpp"
 #include "scene/toml_text.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {

@@ -14,7 +14,6 @@
 #include "scene/scene_reader.hpp"
 #include "scene/spelling.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 

@@ -1,10 +1,9 @@
-#include "wavebalance/app/compose/rest_state.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 #include "compose/compose_parts.hpp"
 #include "matrices/load_places.hpp"
 #include "matrices/loads.hpp"
 #include "matrices/structure_files.hpp"
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/structure/rigid_modes.hpp"

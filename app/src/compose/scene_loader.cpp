@@ -1,4 +1,4 @@
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 #include "compose/compose_parts.hpp"
 #include "matrices/dof_names.hpp"

@@ -1,7 +1,5 @@
 #include "wavebalance/app/compose/structure_model.hpp"
 
-#include <algorithm>
-
 #include "compose/compose_parts.hpp"
 #include "matrices/boundary.hpp"
 #include "matrices/carried_rows.hpp"
@@ -9,7 +7,7 @@
 #include "matrices/loads.hpp"
 #include "matrices/structure_files.hpp"
 #include "matrices/symmetric_part.hpp"
-#include "wavebalance/app/compose/massless_contacts.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/centrifugal.hpp"

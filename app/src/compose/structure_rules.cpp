@@ -1,10 +1,8 @@
-#include <algorithm>
-#include <cmath>
 
 #include "compose/compose_parts.hpp"
 #include "matrices/structure_files.hpp"
 #include "scene/scene_reader.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 

@@ -11,7 +11,6 @@
 #include "results/record_parts.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/results/record.hpp"

@@ -1,6 +1,6 @@
 #include "drawing/figures.hpp"
 
-#include "wavebalance/app/analysis/friction_measures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {

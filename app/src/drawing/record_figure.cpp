@@ -6,7 +6,7 @@
 
 #include "analysis/analysis_parts.hpp"
 #include "plot/plot_parts.hpp"
-#include "wavebalance/app/compose/elastic_modes.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"

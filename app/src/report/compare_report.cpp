@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "report/page_parts.hpp"
-#include "wavebalance/app/compare/basis_pair.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/page/html.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "report/arguments.hpp"
-#include "wavebalance/app/compare/comparison_record.hpp"
+#include "wavebalance/app/compare/comparison.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/scene.hpp"
-#include "wavebalance/app/study/study_record.hpp"
+#include "wavebalance/app/study/study.hpp"
 
 namespace wavebalance::app {
 

@@ -4,7 +4,6 @@
 
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
-#include "wavebalance/app/analysis/friction_measures.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"

@@ -6,11 +6,11 @@
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
 #include "results/record_parts.hpp"
-#include "wavebalance/app/analysis/damped_modes.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/compose/elastic_modes.hpp"
+#include "wavebalance/app/analysis/modes.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
-#include "wavebalance/app/results/tables.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -7,10 +7,9 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
-#include "wavebalance/app/results/tables.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/solvers/modes/mode_stability.hpp"
 
 namespace wavebalance::app {

@@ -7,7 +7,7 @@
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/page/assets.hpp"
 #include "wavebalance/app/page/body.hpp"
-#include "wavebalance/app/results/tables.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 #include "wavebalance/fem/vtu.hpp"
 

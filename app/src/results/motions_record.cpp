@@ -8,7 +8,7 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/motions.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
-#include "wavebalance/app/results/tables.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -3,11 +3,10 @@
 
 #include "drawing/figures.hpp"
 #include "files/missing.hpp"
-#include "wavebalance/app/analysis/curve_motions.hpp"
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/attractors/recorded_motion.hpp"
-#include "wavebalance/app/compose/rest_state.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/outputs/mode_outputs.hpp"
 #include "wavebalance/app/outputs/output_measures.hpp"

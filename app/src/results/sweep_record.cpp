@@ -6,7 +6,7 @@
 #include "results/quantities.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
-#include "wavebalance/app/results/tables.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {

@@ -1,4 +1,4 @@
-#include "wavebalance/app/results/tables.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 #include "files/missing.hpp"
 #include "results/quantities.hpp"

@@ -1,4 +1,4 @@
-#include "wavebalance/app/study/journal.hpp"
+#include "wavebalance/app/study/study.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

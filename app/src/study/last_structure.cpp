@@ -1,4 +1,4 @@
-#include "wavebalance/app/study/last_structure.hpp"
+#include "wavebalance/app/study/study.hpp"
 
 namespace wavebalance::app {
 namespace {

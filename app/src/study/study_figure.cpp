@@ -11,7 +11,7 @@
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/output_words.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
-#include "wavebalance/app/study/study_record.hpp"
+#include "wavebalance/app/study/study.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "wavebalance/app/study/study_record.hpp"
+#include "wavebalance/app/study/study.hpp"
 
 #include <fmt/format.h>
 

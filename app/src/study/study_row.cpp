@@ -1,4 +1,4 @@
-#include "wavebalance/app/study/study_row.hpp"
+#include "wavebalance/app/study/study.hpp"
 
 #include <exception>
 #include <new>

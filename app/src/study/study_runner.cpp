@@ -1,4 +1,4 @@
-#include "wavebalance/app/study/study_runner.hpp"
+#include "wavebalance/app/study/study.hpp"
 
 #include <fmt/format.h>
 

@@ -1,14 +1,12 @@
 #include <fmt/format.h>
 #include <gsl/gsl_qrng.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <numeric>
 #include <random>
 
 #include "files/number_text.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/study/study.hpp"

@@ -1,11 +1,10 @@
 #pragma once
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <thread>
 
-#include "wavebalance/app/study/study_row.hpp"
+#include "wavebalance/app/study/study.hpp"
 
 namespace wavebalance::app {
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::app {
 namespace {

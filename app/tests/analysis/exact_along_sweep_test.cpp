@@ -1,12 +1,10 @@
 // Source of the stability of a point of a curve. Records: tests/analyses/phases_of_curves_test.py.
-#include "wavebalance/app/analysis/exact_along_sweep.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
-
-#include "wavebalance/app/analysis/sweep.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -7,7 +7,7 @@
 #include "support/bar_scene.hpp"
 #include "support/stop_scene.hpp"
 #include "support/summary_value.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {

@@ -6,8 +6,7 @@
 #include <set>
 
 #include "temporary_folder.hpp"
-#include "wavebalance/app/compose/other_analysis.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {

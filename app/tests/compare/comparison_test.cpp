@@ -9,7 +9,7 @@
 #include "support/bar_scene.hpp"
 #include "support/brief_comparison.hpp"
 #include "support/summary_value.hpp"
-#include "wavebalance/app/compare/comparison_record.hpp"
+#include "wavebalance/app/compare/comparison.hpp"
 
 namespace wavebalance::app {
 namespace {

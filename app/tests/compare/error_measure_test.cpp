@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "wavebalance/app/compare/error_measure.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"
 
 namespace wavebalance::app {

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "compare/exact_reference.hpp"
-#include "wavebalance/app/compare/exact_study.hpp"
+#include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "enumerators.hpp"
-#include "wavebalance/app/compare/recommendation.hpp"
+#include "wavebalance/app/compare/comparison.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "wavebalance/app/compare/solve_point.hpp"
-#include "wavebalance/app/compare/stopwatch.hpp"
 
 namespace wavebalance::app {
 namespace {

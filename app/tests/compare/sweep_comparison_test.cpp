@@ -1,5 +1,5 @@
 // Curves that are followed together, and how far they are apart.
-#include "wavebalance/app/compare/sweep_comparison.hpp"
+#include "wavebalance/app/compare/comparison.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support/cantilevers.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 namespace {
 

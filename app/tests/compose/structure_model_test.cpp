@@ -5,7 +5,7 @@
 #include "support/chain_files.hpp"
 #include "support/scene_texts.hpp"
 #include "support/strip.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/fem/centrifugal.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/fem/matrix_market.hpp"

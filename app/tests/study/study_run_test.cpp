@@ -9,8 +9,7 @@
 
 #include "support/scene_texts.hpp"
 #include "temporary_folder.hpp"
-#include "wavebalance/app/study/journal.hpp"
-#include "wavebalance/app/study/study_runner.hpp"
+#include "wavebalance/app/study/study.hpp"
 
 namespace {
 

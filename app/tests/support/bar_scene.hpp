@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "support/scene_texts.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 /// bar_scene with other values, each as "key=value".
 inline wavebalance::app::Scene scene_of(const std::vector<std::string>& overrides = {}) {

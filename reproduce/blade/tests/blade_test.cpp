@@ -7,7 +7,7 @@
 #include "blade_motion.hpp"
 #include "forced_blade.hpp"
 #include "rotating_blade.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::blade {
 namespace {

@@ -7,8 +7,8 @@
 #include "figures.hpp"
 #include "sweeps.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
-#include "wavebalance/app/results/tables.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/report/rule.hpp"
 
 namespace wavebalance::jl14 {

@@ -12,7 +12,7 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
-#include "wavebalance/app/results/tables.hpp"
+#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/report/rule.hpp"
 #include "wavebalance/solvers/collocation/exact_near_response.hpp"
 #include "wavebalance/solvers/flow/periodic_flow.hpp"

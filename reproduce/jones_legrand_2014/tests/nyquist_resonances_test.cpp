@@ -4,7 +4,6 @@
 
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 
 namespace wavebalance::jl14 {

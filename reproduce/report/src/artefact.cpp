@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/plot/figure_script.hpp"

@@ -1,4 +1,6 @@
 #pragma once
+#include <Eigen/Core>
+
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -6,18 +8,63 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/analysis/exact_along_sweep.hpp"
-#include "wavebalance/app/analysis/friction_measures.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/branches/branches.hpp"
 #include "wavebalance/solvers/collocation/collocation_motion.hpp"
+#include "wavebalance/solvers/collocation/exact_near_response.hpp"
+#include "wavebalance/solvers/problem/exact_along.hpp"
 #include "wavebalance/solvers/problem/structure_points.hpp"
 #include "wavebalance/solvers/response/curve_peak.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 
 namespace wavebalance::app {
+
+/// Whether exact bifurcation points are computed along a curve of a scene. With many contacts they can take
+/// a hundred times as long as the curve, and require analysis.phases.
+bool seeks_exact_points(const Scene& scene);
+
+/// How many bifurcation points of a curve have exact solutions unless analysis.phases requests all points.
+inline constexpr std::size_t most_special_points_with_exact = 24;
+
+/// The exact periodic solutions near a curve. Empty if not requested.
+struct ExactAlongSweep {
+  using Point = std::optional<solvers::ExactAtPoint>;
+
+  Point peak;                         ///< of the main curve, with its motion
+  std::vector<Point> special_points;  ///< one for each of CurveStability::special_points
+  std::vector<Point> points;          ///< one for each point of the curve with analysis.phases; else none
+};
+
+/// "converged", "converged_beside" if found only a few points along the curve away, another
+/// solvers::ExactStatus, or "not_computed".
+std::string phases_status(const ExactAlongSweep::Point& point);
+/// Whether the search found none nearby.
+bool was_not_found(const ExactAlongSweep::Point& point);
+
+/// The stability along a curve in its record.
+struct StabilityAlong {
+  std::vector<solvers::PointStability> points;
+  /// Per point: "phases" if the count belongs to the exact motion, "balance", or "none" if no exact motion
+  /// was found nearby and the stability is not known. Empty without ExactAlongSweep::points.
+  std::vector<std::string> by;
+  std::string status = "converged";  ///< or why the first count that is not known is not
+};
+
+/// A harmonic balance curve with the counts of the exact motions where these are known; null: without any.
+StabilityAlong stability_along(const solvers::CurveStability& balance, const ExactAlongSweep* phases);
+
+/// The index of the point with the largest displacement, of a curve with points.
+std::size_t peak_of(const solvers::FrequencySweep& curve);
+/// The index of the point that vibrates most.
+std::size_t vibration_peak_of(const solvers::FrequencySweep& curve);
+
+/// The relative error of the vibration, half the peak-to-peak value, at the peak of a curve against the
+/// motion of the structure near it; NaN where that is not known there.
+double error_of_vibration(const solvers::FrequencySweep& curve, const ExactAlongSweep::Point& peak,
+                          int output_points);
 
 /// The impacts of a point of a curve.
 struct PointImpacts {
@@ -173,5 +220,32 @@ void add_isolas(const Scene& scene, const StructureModel& model, Sweep& sweep, c
 /// that stops it leaves the points so far.
 void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep,
                    const Observer& observer = {});
+
+/// The motion of one point of a sweep.
+struct CurveMotion {
+  std::string name;    ///< "motion_peak", "motion_fold_1", "motion_150Hz_2": its files without their ending
+  std::string at;      ///< "peak", the solvers::SpecialPointType, "frequency" or "amplitude"
+  double place = 0.0;  ///< of the load: its frequency (Hz), or its amplitude in an amplitude sweep
+  bool converged = true;        ///< of one at a requested place: whether Newton's method solved for it
+  double residual = 0.0;        ///< relative
+  solvers::Motion contacts;     ///< of all contacts, analysis.output_points points
+  int contact = 0;              ///< the leading one, see leading_contact()
+  Eigen::MatrixXd structure;    ///< of the reduced structure at analysis.motion_points instants, m; or empty
+  Eigen::MatrixXd plane;        ///< of StructureModel::plane, 2 x output_points, m; or empty
+  ResponseStability stability;  ///< with analysis.stability; else its status is empty
+  /// With analysis.stability or analysis.phases; where it is not empty, the stability belongs to the motion
+  /// found, and is not known if none is near.
+  ExactAlongSweep::Point phases;
+  /// Where it is known: the motion of the structure itself near this one, with its phases of contact.
+  std::optional<solvers::ExactNearResponse> near;
+};
+
+/// The motions of analysis.motion_at: at the point with the largest displacement, at bifurcation and
+/// grazing points in their order along the curve, and at all points with a given frequency or amplitude,
+/// numbered if there are several. Branches are left out. A place that the curve does not pass has none.
+/// `sweep` is one of the scene with motion_at. A response, its phases and its stability for each. If the
+/// observer stops, the remaining ones are named in sweep.motions_left_out.
+std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel& model, Sweep& sweep,
+                                       const Observer& observer = {});
 
 }  // namespace wavebalance::app

@@ -2,7 +2,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "wavebalance/app/analysis/damped_modes.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/outputs/output_measures.hpp"
 
