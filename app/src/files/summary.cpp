@@ -7,8 +7,12 @@
 namespace wavebalance::app {
 
 const Entry* find_entry(const Summary& summary, std::string_view name) {
-  const auto found = std::ranges::find_if(summary, [&](const Entry& one) { return one.name == name; });
+  const auto found = std::ranges::find(summary, name, &Entry::name);
   return found == summary.end() ? nullptr : &*found;
+}
+
+Entry* find_entry(Summary& summary, std::string_view name) {
+  return const_cast<Entry*>(find_entry(std::as_const(summary), name));
 }
 
 double number_in(const Summary& summary, const Quantity& quantity) {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cctype>
 
+#include "plot/plot_parts.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 
@@ -16,11 +16,8 @@ std::string value_text(const SummaryValue& value) {
     return fmt::format("{}", fmt::join(*list, ", "));
   if (const auto* words = std::get_if<std::vector<std::string>>(&value))
     return fmt::format("{}", fmt::join(*words, "; "));
-  if (const auto* number = std::get_if<double>(&value)) return cell_text(*number);
-  if (const auto* count = std::get_if<std::int64_t>(&value)) return cell_text(*count);
-  if (const auto* truth = std::get_if<bool>(&value)) return cell_text(*truth);
-  if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  return fmt::format("{} rows", std::get<Table>(value).rows());
+  const auto* table = std::get_if<Table>(&value);
+  return table == nullptr ? cell_text(cell_of(value)) : fmt::format("{} rows", table->rows());
 }
 
 /// Columns of places along a curve.
@@ -120,10 +117,7 @@ bool holds_file(const std::vector<RecordFile>& files, const std::string& name) {
   return std::ranges::any_of(files, [&](const RecordFile& file) { return file.name == name; });
 }
 
-std::string sentence(std::string about) {
-  if (!about.empty()) about[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(about[0])));
-  return about + ".";
-}
+std::string sentence(std::string about) { return capitalised(std::move(about)) + "."; }
 
 std::string columns_html(const Table& table,
                          const std::vector<std::pair<std::string, std::string>>& columns) {

@@ -94,11 +94,9 @@ Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::ve
     std::string& name = names[file];
     if (!name.empty()) return name + of_several;
     const std::string base = std::filesystem::path(file).filename().string();
-    const auto taken = [&](const std::string& one) {
-      return std::ranges::any_of(files, [&](const RecordFile& other) { return other.name == one; });
-    };
     name = std::string(copied) + base;
-    for (int number = 2; taken(name); ++number) name = fmt::format("{}{}_{}", copied, number, base);
+    for (int number = 2; holds_file(files, name); ++number)
+      name = fmt::format("{}{}_{}", copied, number, base);
     files.push_back({name, read_file(file), "copy of " + base + ", which the scene names"});
     return name + of_several;
   });
@@ -151,8 +149,7 @@ void check_run_output(const RunArguments& arguments, const Scene& scene) {
 
 void write_run_files(OutputFiles& output, const RunFiles& files, const InputFiles& inputs) {
   const auto writes = [&](const std::string& name) {
-    return name == "summary.json" ||
-           std::ranges::any_of(files.files, [&](const auto& file) { return file.name == name; });
+    return name == "summary.json" || holds_file(files.files, name);
   };
   require_replaceable(output.directory(), writes, inputs);
   output.replace(files_of_record(output.directory() / "summary.json"));

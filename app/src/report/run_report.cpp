@@ -38,19 +38,13 @@ std::string folded_table(const Summary& summary, const std::string& name, const 
   return table == nullptr ? "" : folded(title, table_html(shown_rows(*table)));
 }
 
-/// The picture of this name, with curves that zoom where its data are among the files.
-std::string picture(const std::vector<RecordFile>& files, const std::string& svg,
-                    const std::string& alternative) {
-  const std::string stem = svg.substr(0, svg.size() - std::string_view(".svg").size());
-  return picture_html(files, stem, alternative);
-}
-
 /// The picture of the record.
 std::string record_picture(const std::vector<RecordFile>& files, const std::string& heading) {
   const auto drawn =
       std::ranges::find_if(files, [](const auto& file) { return file.name.ends_with(".svg"); });
-  return drawn == files.end() ? "<p>There is no picture: gnuplot was not found.</p>\n"
-                              : picture(files, drawn->name, heading);
+  return drawn == files.end()
+             ? "<p>There is no picture: gnuplot was not found.</p>\n"
+             : picture_html(files, std::filesystem::path(drawn->name).stem().string(), heading);
 }
 
 /// How many contacts are closed at rest; empty where static loads move none.
@@ -74,8 +68,7 @@ std::string outputs_of_record(const Record& record, const std::vector<RecordFile
                               const Summary& summary) {
   std::string pictures = paragraph(output_sentences(summary, record.axis));
   for (const RecordPicture& one : record.output_pictures)
-    for (const RecordFile& file : files)
-      if (file.name == one.stem + ".svg") pictures += picture(files, file.name, one.figure.title);
+    if (holds_file(files, one.stem + ".svg")) pictures += picture_html(files, one.stem, one.figure.title);
   return pictures + folded_table(summary, "outputs", "Outputs") +
          folded_table(summary, "critical_speeds", "Critical speeds");
 }
@@ -95,10 +88,9 @@ std::string motions_of_points(const Record& record, const std::vector<RecordFile
                               const Summary& summary) {
   std::string pictures;
   for (const RecordPicture& motion : record.motion_pictures)
-    for (const RecordFile& file : files)
-      if (file.name == motion.stem + ".svg")
-        pictures += "<h3>" + escaped(motion.figure.title) + "</h3>\n" +
-                    picture(files, file.name, motion.figure.title);
+    if (holds_file(files, motion.stem + ".svg"))
+      pictures += "<h3>" + escaped(motion.figure.title) + "</h3>\n" +
+                  picture_html(files, motion.stem, motion.figure.title);
   return pictures.empty() ? "" : pictures + folded_table(summary, "phases", "Contact intervals");
 }
 

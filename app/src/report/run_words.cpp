@@ -253,7 +253,8 @@ void append_curve(std::vector<std::string>& sentences, const Summary& summary, d
     sentences.back() += fmt::format(
         " The largest vibration of a contact is {}.",
         peak_text(vibration, unit, value_resolution,
-                  number_in(summary, quantities::vibration_place(axis.unit)), place_resolution, axis));
+                  number_in(summary, quantities::in_unit(quantities::vibration_places, axis.unit)),
+                  place_resolution, axis));
   // Without a gap the vibration is enough, and a rigid obstacle holds the displacement at its gap.
   constexpr double rounding = 1e-9;
   if (!std::isfinite(highest) || !std::isfinite(gap) ||
@@ -261,7 +262,8 @@ void append_curve(std::vector<std::string>& sentences, const Summary& summary, d
     return;
   sentences.push_back(
       fmt::format("The largest displacement is {}, {}{}.", rounded_quantity(highest, unit, value_resolution),
-                  place_text(number_in(summary, quantities::peak_place(axis.unit)), place_resolution, axis),
+                  place_text(number_in(summary, quantities::in_unit(quantities::peak_places, axis.unit)),
+                             place_resolution, axis),
                   beside_gap(highest, gap, unit)));
 }
 

@@ -44,10 +44,8 @@ Record solution_record(const DampedStudy& study, const solvers::DampedBackbone& 
   record.status = record.interrupted ? "interrupted" : status_of(study, curve, asked);
   int iterations = 0;
   for (const solvers::DampedPoint& point : curve.points) iterations += point.iterations;
-  record.summary =
-      solution_entries(record.converged, record.status,
-                       largest_of(curve.points, [](const auto& point) { return point.residual; }), iterations,
-                       study.mode().unknowns(), wall_seconds);
+  begin_summary(record, largest_of(curve.points, [](const auto& one) { return one.residual; }), iterations,
+                study.mode().unknowns(), wall_seconds);
   return record;
 }
 
@@ -96,18 +94,9 @@ Record motion_record(const DampedStudy& study, const StructureModel& model, cons
   record.add(quantities::damping_ratio, value([](const auto& one) { return one.damping_ratio(); }));
   append_friction(record, scene, response, frequency);
   if (point == nullptr) return record;
-  const auto structure_at = [&](int points) {
+  append_free_motion(record, scene, model, response, frequency, frequency, [&](int points) {
     return study.motion_of(Eigen::MatrixXd::Identity(model.size(), model.size()), *point, points);
-  };
-  if (scene.analysis.has_outputs()) response.structure = structure_at(scene.analysis.output_points);
-  append_outputs(record, scene, model, response, {frequency, 0.0, 1});
-  record.response = response_table(response.leading());
-  add_contacts(record, scene, response.contacts, response.contact);
-  if (scene.analysis.motion_points > 0)
-    for (RecordFile& file : motion_files(model, structure_at(scene.analysis.motion_points).displacement))
-      record.files.push_back(std::move(file));
-  record.figure = motion_figure(scene, response, frequency);
-  lead_with_output(record, scene);
+  });
   return record;
 }
 

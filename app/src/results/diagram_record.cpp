@@ -308,8 +308,7 @@ Record diagram_record(const Scene& scene, const StructureModel& model, const Ana
   record.status = diagram.status;
   const int periods =
       int(diagram.values.size()) * (scene.analysis.transient_periods + scene.analysis.section_points);
-  record.summary = solution_entries(record.converged, record.status, missing, periods, 2 * model.size(),
-                                    diagram.wall_seconds);
+  begin_summary(record, missing, periods, 2 * model.size(), diagram.wall_seconds);
   record.add(quantities::analysis, name_of(scene.analysis.type));
   record.add(quantities::diagram_values, scene.analysis.values);
   warn_of_scene(record, scene);

@@ -214,8 +214,7 @@ Record curve_record(const ModeStudy& study, const Observer& observer) {
   Record record;
   record.converged = curve.converged();
   record.status = curve.status();
-  record.summary = solution_entries(record.converged, record.status, worst_residual(curve),
-                                    iterations_of(curve), study.unknowns(), curve.wall_seconds);
+  begin_summary(record, worst_residual(curve), iterations_of(curve), study.unknowns(), curve.wall_seconds);
   append_curve(record.summary, curve, common_gap(study));
   append_discretisation(record.summary, study);
   append_statuses(record.summary, curve);
@@ -268,8 +267,8 @@ Record motion_record(const ModeStudy& study) {
     record.status =
         curve.early_end.empty() ? "no neighbouring points of the branch enclose the energy" : curve.early_end;
   }
-  record.summary = solution_entries(record.converged, record.status, moves ? study.residual(point) : missing,
-                                    point.iterations, study.unknowns(), response.wall_seconds);
+  begin_summary(record, moves ? study.residual(point) : missing, point.iterations, study.unknowns(),
+                response.wall_seconds);
   append_motion(record.summary, scene, moves ? response.contacts : solvers::Motion{}, response.contact);
   append_discretisation(record.summary, study);
   const double ratio = point.omega / study.mode().linear_omega();
@@ -291,17 +290,9 @@ Record motion_record(const ModeStudy& study) {
   if (!moves) return record;
   append_stability(record, study, point);
   response.moves = true;
-  if (scene.analysis.has_outputs())
-    response.structure = study.structure_motion(point, scene.analysis.output_points);
-  append_outputs(record, scene, study.model(), response, {ratio * study.linear_frequency(), 0.0, 1});
-  record.response = response_table(response.leading());
-  add_contacts(record, scene, response.contacts, response.contact);
-  if (scene.analysis.motion_points > 0)
-    record.files =
-        motion_files(study.model(), study.structure_motion(point, scene.analysis.motion_points).displacement);
-  record.figure =
-      motion_figure(scene, response, std::round(100.0 * ratio * study.linear_frequency()) / 100.0);
-  lead_with_output(record, scene);
+  const double frequency = ratio * study.linear_frequency();
+  append_free_motion(record, scene, study.model(), response, frequency, std::round(100.0 * frequency) / 100.0,
+                     [&](int points) { return study.structure_motion(point, points); });
   return record;
 }
 

@@ -115,10 +115,9 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Ana
   record.converged = all.status == "converged";
   record.interrupted = all.status == "cancelled";
   record.status = record.interrupted ? "interrupted" : all.status;
-  record.summary = solution_entries(
-      record.converged, record.status,
-      largest_of(all.motions, [](const FoundMotion& one) { return one.found.motion.residual; }), iterations,
-      unknowns, all.wall_seconds);
+  begin_summary(record,
+                largest_of(all.motions, [](const FoundMotion& one) { return one.found.motion.residual; }),
+                iterations, unknowns, all.wall_seconds);
   record.add(quantities::max_displacement, largest_of(all.motions, largest_displacement));
   record.add(quantities::min_displacement, least_of(all.motions, [](const FoundMotion& one) {
                return one.contacts.displacement.minCoeff();

@@ -187,8 +187,7 @@ void insert_outputs(Summary& summary, const Scene& scene, const std::vector<Outp
   for (Entry& one : entries) one.kind = EntryKind::result;
   if (const auto leading = leading_output(outputs, scene))
     entries.emplace(entries.begin(), quantities::leading_output, outputs[*leading].name);
-  const auto status =
-      std::ranges::find_if(summary, [](const Entry& one) { return one.name == quantities::status.name; });
+  const auto status = std::ranges::find(summary, quantities::status.name, &Entry::name);
   summary.insert(status == summary.end() ? status : status + 1, entries.begin(), entries.end());
 }
 

@@ -107,11 +107,6 @@ inline constexpr std::array peak_places{
     Quantity{"amplitude_at_max_displacement_g", result, "g", "amplitude at max displacement"},
     Quantity{"amplitude_at_max_displacement_kg_m", result, "kg m", "amplitude at max displacement"}};
 
-/// For a curve over a frequency or an amplitude in `unit`.
-constexpr const Quantity& peak_place(std::string_view unit) {
-  return *std::ranges::find_if(peak_places, [&](const Quantity& one) { return one.unit == unit; });
-}
-
 /// Where the vibration of contacts along a curve is largest.
 inline constexpr std::array vibration_places{
     Quantity{"frequency_at_largest_vibration_Hz", result, "Hz", "frequency at largest vibration"},
@@ -121,9 +116,9 @@ inline constexpr std::array vibration_places{
     Quantity{"amplitude_at_largest_vibration_g", result, "g", "amplitude at largest vibration"},
     Quantity{"amplitude_at_largest_vibration_kg_m", result, "kg m", "amplitude at largest vibration"}};
 
-/// For a curve over a frequency or an amplitude in `unit`.
-constexpr const Quantity& vibration_place(std::string_view unit) {
-  return *std::ranges::find_if(vibration_places, [&](const Quantity& one) { return one.unit == unit; });
+/// The one of these places for a curve over a frequency or an amplitude in `unit`.
+constexpr const Quantity& in_unit(const std::array<Quantity, 6>& places, std::string_view unit) {
+  return *std::ranges::find(places, unit, &Quantity::unit);
 }
 
 /// The quantity with words that a column of a table holds; null for others.
@@ -133,10 +128,9 @@ constexpr const Quantity* find_in_words(std::string_view column) {
         &rms_vibration, &max_contact_force, &contact_dissipation, &friction_work, &wear, &slip_amplitude,
         &max_penetration, &min_contact_force})
     if (one->name == column) return one;
-  for (const Quantity& one : peak_places)
-    if (one.name == column) return &one;
-  for (const Quantity& one : vibration_places)
-    if (one.name == column) return &one;
+  for (const auto* places : {&peak_places, &vibration_places})
+    for (const Quantity& one : *places)
+      if (one.name == column) return &one;
   return nullptr;
 }
 

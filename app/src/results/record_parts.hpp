@@ -192,10 +192,9 @@ void warn(Record& record, fmt::format_string<Values...> text, Values&&... values
   record.warnings.push_back(fmt::format(text, std::forward<Values>(values)...));
 }
 
-/// The first entries of every summary.
-Summary solution_entries(bool converged, const std::string& status, double residual, int iterations,
-                         int unknowns, double solve_seconds);
-/// Puts the total time before the time of the solution.
+/// The first entries of every summary, of a record whose status is known.
+void begin_summary(Record& record, double residual, int iterations, int unknowns, double solve_seconds);
+/// Puts the time of everything before that of the solution.
 void insert_wall_seconds(Summary& summary, double seconds);
 
 /// Pair of bases, its formulation and its sizes.
@@ -230,6 +229,11 @@ void warn_of_unbalanced_load(Record& record, const StructureModel& model);
 void append_start(Record& record, const StartMotion& start, bool found, double distance);
 /// All warnings of the record in its summary, also those that came after the summary's own.
 void set_warnings(Record& record);
+
+/// What is written and drawn of a free motion with its contacts in `response` and the structure's motion at
+/// so many instants; `shown` is the frequency in the title (Hz).
+void append_free_motion(Record& record, const Scene& scene, const StructureModel& model, Response& response,
+                        double frequency, double shown, const std::function<solvers::Motion(int)>& structure);
 
 /// The fields of the motion of the direction of contact `leading`; missing values of an empty motion.
 void append_motion(Summary& summary, const Scene& scene, const solvers::Motion& contacts, int leading);

@@ -10,9 +10,7 @@ namespace wavebalance::app {
 namespace {
 
 void replace(Summary& summary, const Quantity& quantity, SummaryValue value) {
-  const auto found =
-      std::ranges::find_if(summary, [&](const Entry& entry) { return entry.name == quantity.name; });
-  if (found != summary.end()) found->value = std::move(value);
+  if (Entry* found = find_entry(summary, quantity.name)) found->value = std::move(value);
 }
 
 /// Replaces the value of the last period, if the record has one, and appends its error.

@@ -204,8 +204,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   record.converged = response.converged;
   record.status = response.status;
   warn_of_unbalanced_load(record, model);
-  record.summary = solution_entries(response.converged, response.status, response.residual,
-                                    response.iterations, response.unknowns, response.wall_seconds);
+  begin_summary(record, response.residual, response.iterations, response.unknowns, response.wall_seconds);
   append_motion(record.summary, scene, response.moves ? response.contacts : solvers::Motion{},
                 response.contact);
   append_dissipation(record.summary, scene, response);

@@ -12,17 +12,18 @@
 
 namespace wavebalance::app {
 
-Summary solution_entries(bool converged, const std::string& status, double residual, int iterations,
-                         int unknowns, double solve_seconds) {
-  return {{quantities::converged, converged},   {quantities::status, status},
-          {quantities::residual, residual},     {"iterations", std::int64_t{iterations}},
-          {"unknowns", std::int64_t{unknowns}}, {quantities::solve_seconds, solve_seconds}};
+void begin_summary(Record& record, double residual, int iterations, int unknowns, double solve_seconds) {
+  record.summary = {{quantities::converged, record.converged},
+                    {quantities::status, record.status},
+                    {quantities::residual, residual},
+                    {"iterations", iterations},
+                    {"unknowns", unknowns},
+                    {quantities::solve_seconds, solve_seconds}};
 }
 
 void insert_wall_seconds(Summary& summary, double seconds) {
-  const auto place = std::ranges::find_if(
-      summary, [](const Entry& entry) { return entry.name == quantities::solve_seconds.name; });
-  summary.insert(place, Entry(quantities::wall_seconds, seconds));
+  summary.insert(std::ranges::find(summary, quantities::solve_seconds.name, &Entry::name),
+                 Entry(quantities::wall_seconds, seconds));
 }
 
 void append_discretisation(Summary& summary, const Time& time) {
@@ -134,6 +135,20 @@ void append_motion(Summary& summary, const Scene& scene, const solvers::Motion& 
                        empty ? missing : contact_fraction(scene, contacts, row));
 }
 
+void append_free_motion(Record& record, const Scene& scene, const StructureModel& model, Response& response,
+                        double frequency, double shown,
+                        const std::function<solvers::Motion(int)>& structure) {
+  if (scene.analysis.has_outputs()) response.structure = structure(scene.analysis.output_points);
+  append_outputs(record, scene, model, response, {frequency, 0.0, 1});
+  record.response = response_table(response.leading());
+  add_contacts(record, scene, response.contacts, response.contact);
+  if (scene.analysis.motion_points > 0)
+    for (RecordFile& file : motion_files(model, structure(scene.analysis.motion_points).displacement))
+      record.files.push_back(std::move(file));
+  record.figure = motion_figure(scene, response, shown);
+  lead_with_output(record, scene);
+}
+
 void append_period(Record& record, int periods, int motion_periods) {
   if (periods == 1) return;
   record.add(quantities::subharmonic, periods);
@@ -184,10 +199,7 @@ void append_start(Record& record, const StartMotion& start, bool found, double d
 }
 
 void set_warnings(Record& record) {
-  const std::string_view name = quantities::warnings.name;
-  const auto found =
-      std::ranges::find_if(record.summary, [name](const Entry& entry) { return entry.name == name; });
-  if (found != record.summary.end())
+  if (Entry* found = find_entry(record.summary, quantities::warnings.name))
     *found = Entry(quantities::warnings, record.warnings);
   else
     record.add(quantities::warnings, record.warnings);

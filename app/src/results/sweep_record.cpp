@@ -90,7 +90,7 @@ void append_vibration(Record& record, const Scene& scene, const Sweep& sweep) {
   const PeakResolution resolution =
       any ? peak_resolution(places, values, peak) : PeakResolution{missing, missing};
   record.add(quantities::vibration, any ? values[peak] : missing);
-  record.add(quantities::vibration_place(axis.unit), any ? places[peak] : missing);
+  record.add(quantities::in_unit(quantities::vibration_places, axis.unit), any ? places[peak] : missing);
   record.add(quantities::rms_vibration, largest_of(curve.points, &SweepPoint::rms_vibration));
   record.add(quantities::peak_value_resolution, resolution.value);
   record.add(quantities::peak_place_resolution, resolution.place);
@@ -195,13 +195,12 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
     warn(record, "No periodic motion was found at the start of the curve: {}.", sweep.start_status);
   const double highest = largest_of(sweep.curve.points, &SweepPoint::max_displacement);
   const int points = static_cast<int>(sweep.curve.points.size());
-  record.summary =
-      solution_entries(record.converged, record.status, largest_of(sweep.curve.points, &SweepPoint::residual),
-                       points, unknowns_of(scene, model, sweep), sweep.wall_seconds);
+  begin_summary(record, largest_of(sweep.curve.points, &SweepPoint::residual), points,
+                unknowns_of(scene, model, sweep), sweep.wall_seconds);
   record.add(quantities::max_displacement, highest);
   record.axis = sweep_axis(sweep);
   record.add(
-      quantities::peak_place(record.axis.unit),
+      quantities::in_unit(quantities::peak_places, record.axis.unit),
       points == 0 ? missing : parameter_of(sweep.curve.points[peak_of(sweep.curve)], sweep.curve.parameter));
   record.add(quantities::min_displacement, least_of(sweep.curve.points, &SweepPoint::min_displacement));
   record.add(quantities::rms_displacement, largest_of(sweep.curve.points, &SweepPoint::rms_displacement));

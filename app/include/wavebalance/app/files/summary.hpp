@@ -59,6 +59,7 @@ using Summary = std::vector<Entry>;
 
 /// The entry of a name; null if there is none.
 const Entry* find_entry(const Summary& summary, std::string_view name);
+Entry* find_entry(Summary& summary, std::string_view name);
 
 /// The value of a name, if it is of this type; else null.
 template <class Value>
