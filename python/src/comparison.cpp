@@ -2,7 +2,6 @@
 
 #include "bindings.hpp"
 #include "scenes.hpp"
-#include "tables.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/compare/comparison.hpp"
 

@@ -1,11 +1,10 @@
-#include "laws.hpp"
+#include "problem.hpp"
 
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
-#include "problem.hpp"
 #include "wavebalance/contact/catalogue.hpp"
 #include "wavebalance/contact/table_law.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"

@@ -5,7 +5,6 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "laws.hpp"
 #include "problem.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/analysis/modes.hpp"

@@ -6,9 +6,7 @@
 #include <type_traits>
 
 #include "bindings.hpp"
-#include "laws.hpp"
-#include "response.hpp"
-#include "sweeps.hpp"
+#include "problem.hpp"
 
 /// Data of responses and curves in addition to their problem and laws, as tuples of plain values that can
 /// be pickled.

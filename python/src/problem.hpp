@@ -1,9 +1,21 @@
 #pragma once
+#include <pybind11/pybind11.h>
 
 #include "scene/enum_names.hpp"
+#include "wavebalance/solvers/balance/contact_laws.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "wavebalance/solvers/stability/curve_stability.hpp"
+#include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::python {
+
+/// One law for all contacts, or a sequence of one each. Throws std::invalid_argument for anything else.
+solvers::ContactLaws laws_of(const pybind11::object& laws);
+/// The same for the contacts of a structure. Throws std::invalid_argument for rigid laws at contacts with
+/// mass.
+solvers::ContactLaws laws_of(const pybind11::object& laws, const solvers::LinearStructure& structure);
 
 /// The value of an enumeration that has this name in scenes. Throws std::invalid_argument for another.
 template <class Enum>
@@ -45,6 +57,31 @@ class Problem {
  private:
   solvers::ContactProblem problem_;
   Eigen::MatrixXd recovery_;  // as of Structure
+};
+
+/// A periodic response with what it belongs to.
+struct Response {
+  std::shared_ptr<Problem> problem;
+  solvers::ContactLaws laws;
+  solvers::PeriodicResponse found;
+  double wall_seconds = 0.0;  ///< of the condensation and the solution
+};
+
+/// A solution at a frequency (Hz) near the guess (contacts x points, m), the response before it, or the
+/// motion without contact.
+Response solve(const std::shared_ptr<Problem>& problem, solvers::ContactLaws laws, double frequency,
+               const solvers::ForcedResponseOptions& options, const Eigen::VectorXd& guess,
+               const Eigen::VectorXd& guess_force);
+
+/// A curve with its stability; without points where that was not wanted or no modes were found.
+struct Curve {
+  std::shared_ptr<Problem> problem;
+  solvers::ContactLaws laws;
+  solvers::FrequencySweep curve;
+  solvers::CurveStability stability;
+  double wall_seconds = 0.0;
+
+  std::size_t size() const { return curve.points.size(); }
 };
 
 }  // namespace wavebalance::python

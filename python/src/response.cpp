@@ -1,4 +1,4 @@
-#include "response.hpp"
+#include "problem.hpp"
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
@@ -6,7 +6,6 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "laws.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
 

@@ -5,7 +5,6 @@
 
 #include "bindings.hpp"
 #include "report/reports.hpp"
-#include "tables.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/compose.hpp"

@@ -2,7 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
-#include "response.hpp"
+#include "problem.hpp"
 #include "unlocked.hpp"
 
 namespace wavebalance::python {

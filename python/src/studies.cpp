@@ -3,7 +3,6 @@
 #include "bindings.hpp"
 #include "report/reports.hpp"
 #include "scenes.hpp"
-#include "tables.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/study/study.hpp"

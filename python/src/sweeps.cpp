@@ -3,9 +3,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "laws.hpp"
-#include "response.hpp"
-#include "sweeps.hpp"
+#include "problem.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
 

@@ -1,4 +1,4 @@
-#include "tables.hpp"
+#include "scenes.hpp"
 
 #include <pybind11/stl.h>
 

@@ -1,4 +1,4 @@
-#include "sweeps.hpp"
+#include "problem.hpp"
 
 #include <fmt/format.h>
 
