@@ -6,7 +6,8 @@
 /// or is none where it cannot help there; next_steps() checks whether the rules of scenes accept it.
 namespace wavebalance::app::moves {
 
-using Move = std::function<std::optional<NextStep>(const Scene&)>;
+using Change = std::optional<NextStep>(const Scene&);
+using Move = std::function<Change>;
 
 /// The same for every scene.
 Move always(const std::string& words, const SceneChange& change = {});
@@ -17,37 +18,18 @@ Move scaled(const std::string& words, const std::string& key, double factor,
             double most = std::numeric_limits<double>::infinity());
 
 // Remedies for harmonic or wavelet balance.
-std::optional<NextStep> more_functions(const Scene& scene);
-std::optional<NextStep> odd_functions(const Scene& scene);
-std::optional<NextStep> more_points(const Scene& scene);
-std::optional<NextStep> tolerance_in_place(const Scene& scene);
-std::optional<NextStep> sizes_in_place(const Scene& scene);
-std::optional<NextStep> dropped_nyquist(const Scene& scene);
+Change more_functions, odd_functions, more_points, tolerance_in_place, sizes_in_place, dropped_nyquist;
 
 // Remedies that change the analysis or its method.
-std::optional<NextStep> balance(const Scene& scene);
-std::optional<NextStep> response(const Scene& scene);
-std::optional<NextStep> response_of_periods(const Scene& scene);
+Change balance, response, response_of_periods;
 
 // Remedies that change structure, load or contact.
-std::optional<NextStep> more_damping(const Scene& scene);
-std::optional<NextStep> fewer_modes(const Scene& scene);
-std::optional<NextStep> elastic_friction(const Scene& scene);
-std::optional<NextStep> damping_depth(const Scene& scene);
-std::optional<NextStep> no_rebound(const Scene& scene);
-std::optional<NextStep> more_rebound(const Scene& scene);
-std::optional<NextStep> stiff_law(const Scene& scene);
+Change more_damping, fewer_modes, elastic_friction, damping_depth, no_rebound, more_rebound, stiff_law;
 
 // Remedies for curves.
-std::optional<NextStep> reversed(const Scene& scene);
-std::optional<NextStep> other_start(const Scene& scene);
-std::optional<NextStep> exact_curve(const Scene& scene);
-std::optional<NextStep> curve_of_balance(const Scene& scene);
-std::optional<NextStep> smaller_step(const Scene& scene);
+Change reversed, other_start, exact_curve, curve_of_balance, smaller_step;
 
 // Remedies for modes, time stepping and the search for motions.
-std::optional<NextStep> samples_of_harmonics(const Scene& scene);
-std::optional<NextStep> more_harmonics(const Scene& scene);
-std::optional<NextStep> more_starts(const Scene& scene);
+Change samples_of_harmonics, more_harmonics, more_starts;
 
 }  // namespace wavebalance::app::moves
