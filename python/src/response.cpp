@@ -27,24 +27,6 @@ solvers::PeriodicResponse singular_response(int samples, double frequency) {
   return response;
 }
 
-}  // namespace
-
-Response solve(const std::shared_ptr<Problem>& problem, solvers::ContactLaws laws, double frequency,
-               const solvers::ForcedResponseOptions& options, const Eigen::VectorXd& guess,
-               const Eigen::VectorXd& guess_force) {
-  solvers::PeriodicResponse found;
-  const std::lock_guard alone(problem->alone);
-  const app::WallClock clock;
-  try {
-    found = problem->with(laws).respond(frequency, options, {guess, guess_force});
-  } catch (const solvers::SingularSystem&) {
-    found = singular_response(problem->condensed().samples(), frequency);
-  }
-  return {problem, std::move(laws), std::move(found), clock.seconds()};
-}
-
-namespace {
-
 /// Samples of contacts x points, contact-major.
 Eigen::VectorXd samples_of(const py::array_t<double, py::array::c_style | py::array::forcecast>& array) {
   return Eigen::Map<const Eigen::VectorXd>(array.data(), array.size());
@@ -108,6 +90,20 @@ void add_motion(py::module_& module) {
 }
 
 }  // namespace
+
+Response solve(const std::shared_ptr<Problem>& problem, solvers::ContactLaws laws, double frequency,
+               const solvers::ForcedResponseOptions& options, const Eigen::VectorXd& guess,
+               const Eigen::VectorXd& guess_force) {
+  solvers::PeriodicResponse found;
+  const std::lock_guard alone(problem->alone);
+  const app::WallClock clock;
+  try {
+    found = problem->with(laws).respond(frequency, options, {guess, guess_force});
+  } catch (const solvers::SingularSystem&) {
+    found = singular_response(problem->condensed().samples(), frequency);
+  }
+  return {problem, std::move(laws), std::move(found), clock.seconds()};
+}
 
 void add_response(py::module_& module) {
   add_motion(module);

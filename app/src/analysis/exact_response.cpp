@@ -107,48 +107,6 @@ void try_attractor(ExactFound& found, solvers::ContactProblem& problem, const Sc
     note(found, *std::move(motion), "from_settling", 0);
 }
 
-}  // namespace
-
-void copy_motion(solvers::ContactProblem& problem, const solvers::ExactSolution& motion, const Scene& scene,
-                 const StructureModel& model, const ResponseOptions& options, Response& result) {
-  constexpr double least_left_out = 1e-9, of_impacts = 1e-4;  // whose harmonics do not decay
-  const double frequency = scene.forcing.frequency;
-  result.contacts = contacts_of(motion, scene.analysis.output_points);
-  result.struck = motion.impacts;
-  result.contact = leading_contact(scene, result.contacts, model.gaps);
-  if (is_rigid(scene.contact.law) && !has_impacts(scene.contact)) {
-    const auto contact_major = [](const Eigen::MatrixXd& values) -> Eigen::VectorXd {
-      return values.transpose().reshaped();
-    };
-    const auto held = solvers::complementarity(contact_major(result.contacts.displacement),
-                                               contact_major(result.contacts.force), model.gaps);
-    result.rigid = {held.max_penetration, held.min_force, held.product};
-  }
-  if (options.structure_points > 0)
-    note_structure(result, problem.structure_motion(
-                               frequency, motion, options.structure_points,
-                               {.tolerance = std::max(motion.impacts.empty() ? least_left_out : of_impacts,
-                                                      phases_tolerance(scene))}));
-  if (options.stability && result.converged) result.stability = problem.stability(frequency, motion);
-  if (!moves_by_events(scene)) note_attractor(problem, scene, options.observer, result);
-}
-
-void copy_phases(solvers::ContactProblem& problem, const solvers::ExactSolution& motion, int load_periods,
-                 const Scene& scene, const StructureModel& model, const ResponseOptions& options,
-                 Response& result) {
-  result.phases = {motion, solvers::missing, solvers::missing};
-  result.iterations = motion.iterations;
-  result.unknowns = motion.unknowns;
-  result.converged = motion.converged();
-  result.moves = motion.parts != nullptr;
-  if (!result.moves) return;
-  result.residual = motion.residual;
-  result.periods = result.motion_periods = load_periods;
-  copy_motion(problem, motion, scene, model, options, result);
-}
-
-namespace {
-
 /// `settling`: whether to start from that motion where no balance leads to one.
 void solve_by_collocation(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                           bool settling, Response& result) {
@@ -197,6 +155,44 @@ bool may_leave_pair(const Time& time) {
 }
 
 }  // namespace
+
+void copy_motion(solvers::ContactProblem& problem, const solvers::ExactSolution& motion, const Scene& scene,
+                 const StructureModel& model, const ResponseOptions& options, Response& result) {
+  constexpr double least_left_out = 1e-9, of_impacts = 1e-4;  // whose harmonics do not decay
+  const double frequency = scene.forcing.frequency;
+  result.contacts = contacts_of(motion, scene.analysis.output_points);
+  result.struck = motion.impacts;
+  result.contact = leading_contact(scene, result.contacts, model.gaps);
+  if (is_rigid(scene.contact.law) && !has_impacts(scene.contact)) {
+    const auto contact_major = [](const Eigen::MatrixXd& values) -> Eigen::VectorXd {
+      return values.transpose().reshaped();
+    };
+    const auto held = solvers::complementarity(contact_major(result.contacts.displacement),
+                                               contact_major(result.contacts.force), model.gaps);
+    result.rigid = {held.max_penetration, held.min_force, held.product};
+  }
+  if (options.structure_points > 0)
+    note_structure(result, problem.structure_motion(
+                               frequency, motion, options.structure_points,
+                               {.tolerance = std::max(motion.impacts.empty() ? least_left_out : of_impacts,
+                                                      phases_tolerance(scene))}));
+  if (options.stability && result.converged) result.stability = problem.stability(frequency, motion);
+  if (!moves_by_events(scene)) note_attractor(problem, scene, options.observer, result);
+}
+
+void copy_phases(solvers::ContactProblem& problem, const solvers::ExactSolution& motion, int load_periods,
+                 const Scene& scene, const StructureModel& model, const ResponseOptions& options,
+                 Response& result) {
+  result.phases = {motion, solvers::missing, solvers::missing};
+  result.iterations = motion.iterations;
+  result.unknowns = motion.unknowns;
+  result.converged = motion.converged();
+  result.moves = motion.parts != nullptr;
+  if (!result.moves) return;
+  result.residual = motion.residual;
+  result.periods = result.motion_periods = load_periods;
+  copy_motion(problem, motion, scene, model, options, result);
+}
 
 Scene balance_of(Scene scene, int functions) {
   scene.analysis.type = AnalysisType::forced_response;

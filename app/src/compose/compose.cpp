@@ -68,24 +68,10 @@ PairParts pair_parts(const Time& time) {
   return {trial, weight, std::move(options)};
 }
 
-}  // namespace
-
-solvers::LinearStructure make_structure(const Scene& scene) { return make_model(scene).structure; }
-
-namespace {
-
 solvers::AnyContactLaw law_of(const std::string& law, const contact::LawValues& values) {
   return std::visit([](const auto& made) -> solvers::AnyContactLaw { return made; },
                     contact::law_entry(law).make(values));
 }
-
-}  // namespace
-
-solvers::AnyContactLaw make_law(const Contact& contact) {
-  return law_of(contact.law, law_values(contact.law, contact.values, contact.gap));
-}
-
-namespace {
 
 solvers::ContactLaws laws_at(const Scene& scene, double frequency) {
   const std::vector<SceneContact> contacts = contacts_of(scene, frequency);
@@ -98,43 +84,6 @@ solvers::ContactLaws laws_at(const Scene& scene, double frequency) {
     if (contact.place == 0) laws.push_back(law_of(contact.law, contact.values));
   return laws;
 }
-
-}  // namespace
-
-solvers::ContactLaws make_laws(const Scene& scene) {
-  if (!has_growing_normal_load(scene.contact)) return laws_at(scene, load_frequency(scene));
-  Scene read = scene;
-  read.contact = with_tables_read(scene.contact);
-  return solvers::ContactLaws::over_frequency([read](double frequency) { return laws_at(read, frequency); },
-                                              load_frequency(scene));
-}
-
-solvers::AnyTimeBasis make_basis(const std::string& name, int functions) {
-  if (!is_wavelet(name)) return spectral::FourierBasis(functions);
-  return wavelet_basis(name, functions);
-}
-
-InnerProducts effective_inner_products(const Time& time) {
-  const bool daubechies_galerkin = time.trial == time.weight && daubechies_coefficients(time.trial) > 0;
-  return daubechies_galerkin ? InnerProducts::exact : time.inner_products;
-}
-
-NyquistCoefficient effective_nyquist(const Time& time) {
-  return has_no_nyquist_force(time) ? NyquistCoefficient::drop : time.nyquist;
-}
-
-solvers::Admissibility pair_admissibility(const Time& time) {
-  const PairParts parts = pair_parts(time);
-  return solvers::admissibility(parts.trial, parts.weight, parts.options.formulation,
-                                parts.options.inner_products);
-}
-
-solvers::TimePair make_pair(const Time& time) {
-  PairParts parts = pair_parts(time);
-  return {std::move(parts.trial), std::move(parts.weight), std::move(parts.options)};
-}
-
-namespace {
 
 fem::EigenmodesResult all_modes(const Eigen::SparseMatrix<double>& stiffness,
                                 const Eigen::SparseMatrix<double>& mass) {
@@ -206,6 +155,45 @@ void separate_equal_modes(StructureModes& modes) {
 }
 
 }  // namespace
+
+solvers::LinearStructure make_structure(const Scene& scene) { return make_model(scene).structure; }
+
+solvers::AnyContactLaw make_law(const Contact& contact) {
+  return law_of(contact.law, law_values(contact.law, contact.values, contact.gap));
+}
+
+solvers::ContactLaws make_laws(const Scene& scene) {
+  if (!has_growing_normal_load(scene.contact)) return laws_at(scene, load_frequency(scene));
+  Scene read = scene;
+  read.contact = with_tables_read(scene.contact);
+  return solvers::ContactLaws::over_frequency([read](double frequency) { return laws_at(read, frequency); },
+                                              load_frequency(scene));
+}
+
+solvers::AnyTimeBasis make_basis(const std::string& name, int functions) {
+  if (!is_wavelet(name)) return spectral::FourierBasis(functions);
+  return wavelet_basis(name, functions);
+}
+
+InnerProducts effective_inner_products(const Time& time) {
+  const bool daubechies_galerkin = time.trial == time.weight && daubechies_coefficients(time.trial) > 0;
+  return daubechies_galerkin ? InnerProducts::exact : time.inner_products;
+}
+
+NyquistCoefficient effective_nyquist(const Time& time) {
+  return has_no_nyquist_force(time) ? NyquistCoefficient::drop : time.nyquist;
+}
+
+solvers::Admissibility pair_admissibility(const Time& time) {
+  const PairParts parts = pair_parts(time);
+  return solvers::admissibility(parts.trial, parts.weight, parts.options.formulation,
+                                parts.options.inner_products);
+}
+
+solvers::TimePair make_pair(const Time& time) {
+  PairParts parts = pair_parts(time);
+  return {std::move(parts.trial), std::move(parts.weight), std::move(parts.options)};
+}
 
 StructureModes make_modes(const StructureModel& model) {
   const solvers::LinearStructure& structure = model.structure;

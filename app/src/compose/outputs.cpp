@@ -140,6 +140,64 @@ Eigen::RowVectorXd row_of_unknowns(const StructureFiles& files, int row) {
   return Eigen::RowVectorXd::Unit(std::ssize(files.rows), place(files.rows));
 }
 
+/// Balances of other bases have no second derivative at a point, and impacts none at all.
+void check_acceleration(const Document& document, const Scene& scene) {
+  if (has_impacts(scene.contact))
+    fail_rule(document, {"analysis.outputs"},
+              "an impact has no finite acceleration; expected velocities, or contact.restitution left out");
+  const bool of_mode = scene.analysis.type == AnalysisType::nonlinear_mode;
+  if (of_mode && !is_elastic_mode(scene) && !is_damped_mode(scene))
+    fail_rule(
+        document, {"analysis.outputs"},
+        "a mode of rigid contacts with mass has no finite acceleration where they close; expected velocities, "
+        "or a stiff \"linear\" law");
+  const bool by_bases = !integrates_in_time(scene.analysis.type) && !solves_exactly(scene) &&
+                        !scene.analysis.exact && !scene.time.trial.empty();
+  if (by_bases && is_wavelet(scene.time.trial))
+    fail_rule(document, {"analysis.outputs"},
+              "functions of time.trial = \"" + scene.time.trial +
+                  "\" have no second derivative at each instant; expected time.trial = \"fourier\" beside an "
+                  "acceleration");
+}
+
+void check_output_words(const Document& document, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const std::string& text : scene.analysis.outputs) {
+    try {
+      const Output output = output_of(scene, text);
+      std::string name = output.name;  // whatever its sign
+      std::erase(name, '-');
+      if (contains(names, name)) throw std::invalid_argument(name + " is there twice; expected each once");
+      names.push_back(name);
+      if (output.derivative == 2) check_acceleration(document, scene);
+      const bool in_section = output.derivative == 0 && output.added.empty() && output.over.empty();
+      if (scene.analysis.type == AnalysisType::bifurcation_diagram && !in_section)
+        throw std::invalid_argument(
+            "a section has the displacement and the velocity of a place in the frame of the scene; expected the "
+            "place alone");
+    } catch (const std::invalid_argument& error) {
+      fail_rule(document, {"analysis.outputs"}, toml_text(text) + ": " + error.what());
+    } catch (const StructureFault& fault) {
+      fail_rule(document, {fault.key()}, fault.what());
+    } catch (const SamplesFault& fault) {
+      fail_rule(document, {"forcing.terms"}, fault.what());
+    }
+  }
+}
+
+void check_peak(const Document& document, const Scene& scene) {
+  if (scene.analysis.peak_of.empty()) return;
+  const std::string wanted = peak_name(scene);
+  std::vector<std::string> names;
+  for (const Output& output : outputs_of(scene)) {
+    if (output.name == wanted || output.number == wanted) return;
+    names.push_back(output.name);
+  }
+  fail_rule(document, {"analysis.peak_of"},
+            names.empty() ? "there are no outputs; expected analysis.outputs or contact_outputs beside it"
+                          : "expected one of the outputs, which are " + joined(names));
+}
+
 }  // namespace
 
 std::string column_of(const std::string& name) {
@@ -228,68 +286,6 @@ Eigen::MatrixXd rows_of_outputs(const std::vector<Output>& outputs, const Scene&
   }
   return rows;
 }
-
-namespace {
-
-/// Balances of other bases have no second derivative at a point, and impacts none at all.
-void check_acceleration(const Document& document, const Scene& scene) {
-  if (has_impacts(scene.contact))
-    fail_rule(document, {"analysis.outputs"},
-              "an impact has no finite acceleration; expected velocities, or contact.restitution left out");
-  const bool of_mode = scene.analysis.type == AnalysisType::nonlinear_mode;
-  if (of_mode && !is_elastic_mode(scene) && !is_damped_mode(scene))
-    fail_rule(
-        document, {"analysis.outputs"},
-        "a mode of rigid contacts with mass has no finite acceleration where they close; expected velocities, "
-        "or a stiff \"linear\" law");
-  const bool by_bases = !integrates_in_time(scene.analysis.type) && !solves_exactly(scene) &&
-                        !scene.analysis.exact && !scene.time.trial.empty();
-  if (by_bases && is_wavelet(scene.time.trial))
-    fail_rule(document, {"analysis.outputs"},
-              "functions of time.trial = \"" + scene.time.trial +
-                  "\" have no second derivative at each instant; expected time.trial = \"fourier\" beside an "
-                  "acceleration");
-}
-
-void check_output_words(const Document& document, const Scene& scene) {
-  std::vector<std::string> names;
-  for (const std::string& text : scene.analysis.outputs) {
-    try {
-      const Output output = output_of(scene, text);
-      std::string name = output.name;  // whatever its sign
-      std::erase(name, '-');
-      if (contains(names, name)) throw std::invalid_argument(name + " is there twice; expected each once");
-      names.push_back(name);
-      if (output.derivative == 2) check_acceleration(document, scene);
-      const bool in_section = output.derivative == 0 && output.added.empty() && output.over.empty();
-      if (scene.analysis.type == AnalysisType::bifurcation_diagram && !in_section)
-        throw std::invalid_argument(
-            "a section has the displacement and the velocity of a place in the frame of the scene; expected the "
-            "place alone");
-    } catch (const std::invalid_argument& error) {
-      fail_rule(document, {"analysis.outputs"}, toml_text(text) + ": " + error.what());
-    } catch (const StructureFault& fault) {
-      fail_rule(document, {fault.key()}, fault.what());
-    } catch (const SamplesFault& fault) {
-      fail_rule(document, {"forcing.terms"}, fault.what());
-    }
-  }
-}
-
-void check_peak(const Document& document, const Scene& scene) {
-  if (scene.analysis.peak_of.empty()) return;
-  const std::string wanted = peak_name(scene);
-  std::vector<std::string> names;
-  for (const Output& output : outputs_of(scene)) {
-    if (output.name == wanted || output.number == wanted) return;
-    names.push_back(output.name);
-  }
-  fail_rule(document, {"analysis.peak_of"},
-            names.empty() ? "there are no outputs; expected analysis.outputs or contact_outputs beside it"
-                          : "expected one of the outputs, which are " + joined(names));
-}
-
-}  // namespace
 
 void check_outputs(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;

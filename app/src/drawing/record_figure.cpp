@@ -141,71 +141,6 @@ void add_impacts_along(Figure& figure, const Sweep& sweep, double PointImpacts::
   }
 }
 
-}  // namespace
-
-std::string method_title(const Scene& scene) {
-  if (is_elastic_mode(scene) || is_damped_mode(scene)) {
-    const Time time = mode_time(scene);
-    return "Mode " + std::to_string(scene.analysis.mode) + ", " + basis_title(time.trial) + ":" +
-           basis_title(time.weight) + ", " + std::to_string(time.functions) + " functions, " +
-           structure_title(scene);
-  }
-  if (scene.analysis.type == AnalysisType::nonlinear_mode)
-    return "Mode " + std::to_string(scene.analysis.mode) +
-           ", N = " + std::to_string(scene.analysis.harmonics) +
-           ", m = " + std::to_string(scene.analysis.samples) + ", " + structure_title(scene);
-  if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
-  if (solves_by_impacts(scene)) return "impacts, " + structure_title(scene);
-  if (solves_exactly(scene) || scene.analysis.exact)
-    return "exact periodic solution" + std::string(is_sweep(scene.analysis.type) ? "s" : "");
-  return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
-         std::to_string(scene.time.functions) + " functions";
-}
-
-Figure response_figure(const Scene& scene, const Response& response) {
-  Scene solved = scene;
-  solved.time = solved_time(scene.time, response);
-  if (response.solved_by == name_of(TimeMethod::exact)) solved.time.method = TimeMethod::exact;
-  return motion_figure(solved, response, scene.forcing.frequency);
-}
-
-Figure motion_figure(const Scene& scene, const Response& response, double frequency) {
-  Figure figure;
-  figure.title = method_title(scene) + ", " + quantity(frequency, "Hz", 6);
-  if (response.recorded)
-    figure.title += ", the last period before recording";
-  else if (!response.converged)
-    figure.title += " (NOT CONVERGED)";
-  figure.panel_height = 240;
-  figure.panel_width = 600;
-  const std::vector<SceneContact> contacts = contacts_of(scene);
-  const SceneContact& contact = contacts.at(static_cast<std::size_t>(response.contact));
-  const PeriodWindow window(response);
-  const MotionPicture picture{response, window, contact_spans(scene, response, window),
-                              contacts.size() > 1 ? ", " + plain(name_of(contact)) : ""};
-  const std::string unit = displacement_unit(scene, contact);
-  add_motion(figure, picture, "Displacement", unit, response.displacement());
-  if (response.impacts || !response.struck.empty()) {
-    add_velocity_with_jumps(figure, window, "Velocity" + picture.name, response.struck, response.contact,
-                            response.velocity());
-    add_impulses(figure, window, "Impulses of impacts" + picture.name, response.struck, response.contact);
-  } else {
-    add_motion(figure, picture, "Velocity", unit + "/s", response.velocity());
-  }
-  if (response.forces_are_known())
-    add_motion(figure, picture,
-               has_friction(contact.law) && contact.place > 0 ? "Friction force" : "Contact force",
-               force_unit(unit), response.force());
-  if (has_gap(contact.law) && !has_friction(contact.law)) {
-    const Scale scale = axis_scale(response.displacement().cwiseAbs().maxCoeff());
-    figure.panels.front().mark_level(scale.factor * contact.gap, "gap", quantity(contact.gap, unit));
-  }
-  add_friction(figure, scene, response, window);
-  return figure;
-}
-
-namespace {
-
 /// Whether the largest displacement of contacts hides how they vibrate.
 bool vibrates_about_a_mean(const Scene& scene) {
   const auto& terms = scene.forcing.terms;
@@ -277,6 +212,67 @@ void add_displacements_along(Figure& figure, const Scene& scene, const Sweep& sw
 }
 
 }  // namespace
+
+std::string method_title(const Scene& scene) {
+  if (is_elastic_mode(scene) || is_damped_mode(scene)) {
+    const Time time = mode_time(scene);
+    return "Mode " + std::to_string(scene.analysis.mode) + ", " + basis_title(time.trial) + ":" +
+           basis_title(time.weight) + ", " + std::to_string(time.functions) + " functions, " +
+           structure_title(scene);
+  }
+  if (scene.analysis.type == AnalysisType::nonlinear_mode)
+    return "Mode " + std::to_string(scene.analysis.mode) +
+           ", N = " + std::to_string(scene.analysis.harmonics) +
+           ", m = " + std::to_string(scene.analysis.samples) + ", " + structure_title(scene);
+  if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
+  if (solves_by_impacts(scene)) return "impacts, " + structure_title(scene);
+  if (solves_exactly(scene) || scene.analysis.exact)
+    return "exact periodic solution" + std::string(is_sweep(scene.analysis.type) ? "s" : "");
+  return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
+         std::to_string(scene.time.functions) + " functions";
+}
+
+Figure response_figure(const Scene& scene, const Response& response) {
+  Scene solved = scene;
+  solved.time = solved_time(scene.time, response);
+  if (response.solved_by == name_of(TimeMethod::exact)) solved.time.method = TimeMethod::exact;
+  return motion_figure(solved, response, scene.forcing.frequency);
+}
+
+Figure motion_figure(const Scene& scene, const Response& response, double frequency) {
+  Figure figure;
+  figure.title = method_title(scene) + ", " + quantity(frequency, "Hz", 6);
+  if (response.recorded)
+    figure.title += ", the last period before recording";
+  else if (!response.converged)
+    figure.title += " (NOT CONVERGED)";
+  figure.panel_height = 240;
+  figure.panel_width = 600;
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  const SceneContact& contact = contacts.at(static_cast<std::size_t>(response.contact));
+  const PeriodWindow window(response);
+  const MotionPicture picture{response, window, contact_spans(scene, response, window),
+                              contacts.size() > 1 ? ", " + plain(name_of(contact)) : ""};
+  const std::string unit = displacement_unit(scene, contact);
+  add_motion(figure, picture, "Displacement", unit, response.displacement());
+  if (response.impacts || !response.struck.empty()) {
+    add_velocity_with_jumps(figure, window, "Velocity" + picture.name, response.struck, response.contact,
+                            response.velocity());
+    add_impulses(figure, window, "Impulses of impacts" + picture.name, response.struck, response.contact);
+  } else {
+    add_motion(figure, picture, "Velocity", unit + "/s", response.velocity());
+  }
+  if (response.forces_are_known())
+    add_motion(figure, picture,
+               has_friction(contact.law) && contact.place > 0 ? "Friction force" : "Contact force",
+               force_unit(unit), response.force());
+  if (has_gap(contact.law) && !has_friction(contact.law)) {
+    const Scale scale = axis_scale(response.displacement().cwiseAbs().maxCoeff());
+    figure.panels.front().mark_level(scale.factor * contact.gap, "gap", quantity(contact.gap, unit));
+  }
+  add_friction(figure, scene, response, window);
+  return figure;
+}
 
 Figure sweep_figure(const Scene& scene, const Sweep& sweep, const SweepOutputs& outputs) {
   Figure figure;

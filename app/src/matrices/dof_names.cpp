@@ -34,60 +34,6 @@ std::optional<Integer> integer_of(const std::string& word) {
   return value;
 }
 
-}  // namespace
-
-std::optional<NamedDof> named_dof(std::string text) {
-  NamedDof found;
-  if (text.starts_with('-')) {
-    found.sign = -1;
-    text.erase(0, 1);
-  }
-  std::istringstream words(text);
-  std::string node, number, direction, copy, more;
-  words >> node >> number >> direction;
-  const auto value = integer_of<int>(number);
-  if (node != "node" || !value) return std::nullopt;
-  found.dof = {*value, fem::direction_of(direction)};
-  if (words >> copy) {
-    const auto place = copy.starts_with('#') ? integer_of<int>(copy.substr(1)) : std::nullopt;
-    if (!place || *place < 1 || words >> more) return std::nullopt;
-    found.dof.copy = *place;
-    found.numbered = true;
-  }
-  return found.dof.direction == 0 ? std::nullopt : std::optional(found);
-}
-
-std::vector<int> rows_of(const fem::DofMap& map, const NamedDof& named) {
-  std::vector<int> rows;
-  fem::NodeDof dof = named.dof;
-  const int copies = named.numbered ? 1 : map.copies(dof);
-  for (int copy = 0; copy < copies; ++copy) {
-    if (!named.numbered) dof.copy = copy + 1;
-    if (const int row = map.row(dof); row >= 0) rows.push_back(row);
-  }
-  return rows;
-}
-
-std::string absent_text(const fem::DofMap& map, const fem::NodeDof& dof, const std::string& path) {
-  if (const int copies = map.copies(dof); copies > 0)
-    return fmt::format("there {} {} row{} of that name in {}; expected no #{}", copies == 1 ? "is" : "are",
-                       copies, copies == 1 ? "" : "s", path, dof.copy);
-  std::vector<std::string> present;
-  for (const int direction : map.directions(dof.node)) {
-    const std::string name = map.name(map.row({dof.node, direction}));
-    present.push_back(name.substr(name.rfind(' ') + 1));
-  }
-  if (present.empty())
-    return fmt::format(
-        "node {} is not in {}; expected one that has rows of the matrices, which a node that "
-        "is held does not",
-        dof.node, path);
-  return fmt::format("node {} does not move that way in {}; expected one of {}", dof.node, path,
-                     fmt::join(present, ", "));
-}
-
-namespace {
-
 /// Treatment of a name of several rows, by its list.
 enum class SeveralRows {
   mean,     // of them, by coefficients: contacts, and forces that do work with it
@@ -251,6 +197,56 @@ void set_weights(Document& document, const DocumentEntry& entry, const NamedRows
 }
 
 }  // namespace
+
+std::optional<NamedDof> named_dof(std::string text) {
+  NamedDof found;
+  if (text.starts_with('-')) {
+    found.sign = -1;
+    text.erase(0, 1);
+  }
+  std::istringstream words(text);
+  std::string node, number, direction, copy, more;
+  words >> node >> number >> direction;
+  const auto value = integer_of<int>(number);
+  if (node != "node" || !value) return std::nullopt;
+  found.dof = {*value, fem::direction_of(direction)};
+  if (words >> copy) {
+    const auto place = copy.starts_with('#') ? integer_of<int>(copy.substr(1)) : std::nullopt;
+    if (!place || *place < 1 || words >> more) return std::nullopt;
+    found.dof.copy = *place;
+    found.numbered = true;
+  }
+  return found.dof.direction == 0 ? std::nullopt : std::optional(found);
+}
+
+std::vector<int> rows_of(const fem::DofMap& map, const NamedDof& named) {
+  std::vector<int> rows;
+  fem::NodeDof dof = named.dof;
+  const int copies = named.numbered ? 1 : map.copies(dof);
+  for (int copy = 0; copy < copies; ++copy) {
+    if (!named.numbered) dof.copy = copy + 1;
+    if (const int row = map.row(dof); row >= 0) rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string absent_text(const fem::DofMap& map, const fem::NodeDof& dof, const std::string& path) {
+  if (const int copies = map.copies(dof); copies > 0)
+    return fmt::format("there {} {} row{} of that name in {}; expected no #{}", copies == 1 ? "is" : "are",
+                       copies, copies == 1 ? "" : "s", path, dof.copy);
+  std::vector<std::string> present;
+  for (const int direction : map.directions(dof.node)) {
+    const std::string name = map.name(map.row({dof.node, direction}));
+    present.push_back(name.substr(name.rfind(' ') + 1));
+  }
+  if (present.empty())
+    return fmt::format(
+        "node {} is not in {}; expected one that has rows of the matrices, which a node that "
+        "is held does not",
+        dof.node, path);
+  return fmt::format("node {} does not move that way in {}; expected one of {}", dof.node, path,
+                     fmt::join(present, ", "));
+}
 
 Document with_rows_for_names(Document document) {
   const DocumentEntry* type = document.find("structure", "type");

@@ -227,6 +227,24 @@ void check_pairs(const std::vector<ContactPair>& pairs, Eigen::Index size) {
   }
 }
 
+/// Rows of contacts, from 0, of nodes with several rows of one name, of which contacts leave some out.
+std::vector<int> corner_rows(const Scene& scene, const StructureFiles& files) {
+  std::vector<int> touched, corners;
+  for (const SceneContact& contact : contact_places(scene))
+    for (const int dof : contact.dofs)
+      if (!contains(touched, dof - 1)) touched.push_back(dof - 1);
+  for (const int row : touched) {
+    fem::NodeDof other = files.dof_map->dof(row);
+    const int copies = files.dof_map->copies(other);
+    for (other.copy = 1; other.copy <= copies; ++other.copy)
+      if (!contains(touched, files.dof_map->row(other))) {
+        corners.push_back(row);
+        break;
+      }
+  }
+  return corners;
+}
+
 }  // namespace
 
 StructureFault::StructureFault(std::string_view key, const std::string& reason)
@@ -255,28 +273,6 @@ Eigen::VectorXd StructureFiles::forces_at_unknowns(const Eigen::VectorXd& forces
   if (massless.empty()) return forces(rows);
   return forces(rows) + followers.transpose() * forces(massless);
 }
-
-namespace {
-
-/// Rows of contacts, from 0, of nodes with several rows of one name, of which contacts leave some out.
-std::vector<int> corner_rows(const Scene& scene, const StructureFiles& files) {
-  std::vector<int> touched, corners;
-  for (const SceneContact& contact : contact_places(scene))
-    for (const int dof : contact.dofs)
-      if (!contains(touched, dof - 1)) touched.push_back(dof - 1);
-  for (const int row : touched) {
-    fem::NodeDof other = files.dof_map->dof(row);
-    const int copies = files.dof_map->copies(other);
-    for (other.copy = 1; other.copy <= copies; ++other.copy)
-      if (!contains(touched, files.dof_map->row(other))) {
-        corners.push_back(row);
-        break;
-      }
-  }
-  return corners;
-}
-
-}  // namespace
 
 std::vector<std::string> warnings_of(const Scene& scene, const StructureFiles& files) {
   std::vector<std::string> warnings;

@@ -24,20 +24,6 @@ std::string terminal(const Figure& figure, PictureFormat format) {
          size(2) + "\n}\n";
 }
 
-}  // namespace
-
-Panel& Panel::mark_x(double x_value) {
-  segments.push_back({x_value, {}, x_value, {}, false, Dash::dotted, Colour::grey, 1.2});
-  return *this;
-}
-
-Panel& Panel::mark_y(double y_value, const std::string& label) {
-  segments.push_back({{}, y_value, {}, y_value, false, Dash::dotted, Colour::grey, 1.2, label});
-  return *this;
-}
-
-namespace {
-
 /// The lowest and the highest ordinate of the axis: its limits, or the limits of the curves.
 std::pair<double, double> range_of(const Panel& panel) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -51,6 +37,16 @@ std::pair<double, double> range_of(const Panel& panel) {
 }
 
 }  // namespace
+
+Panel& Panel::mark_x(double x_value) {
+  segments.push_back({x_value, {}, x_value, {}, false, Dash::dotted, Colour::grey, 1.2});
+  return *this;
+}
+
+Panel& Panel::mark_y(double y_value, const std::string& label) {
+  segments.push_back({{}, y_value, {}, y_value, false, Dash::dotted, Colour::grey, 1.2, label});
+  return *this;
+}
 
 Panel& Panel::mark_level(double y_value, const std::string& label, const std::string& value) {
   constexpr double near = 0.5, margin = 0.05;  // of the range

@@ -16,27 +16,6 @@ int digits_of(double value, double resolution, int most) {
   return std::clamp(static_cast<int>(std::ceil(std::log10(std::abs(value) / resolution))), 2, most);
 }
 
-}  // namespace
-
-std::string rounded_quantity(double value, const std::string& unit, double resolution) {
-  constexpr int most = 4;
-  return quantity(rounded(value, digits_of(1.0, resolution, most)), unit);
-}
-
-std::string place_text(double place, double resolution, const SweepAxis& axis) {
-  constexpr int most = 5;
-  const double at = rounded(place, digits_of(place, resolution, most));
-  return (axis.quantity == "frequency" ? "at " : "at an amplitude of ") + quantity(at, axis.unit, most);
-}
-
-std::string peak_text(double vibration, const std::string& unit, double resolution, double place,
-                      double place_resolution, const SweepAxis& axis) {
-  return rounded_quantity(vibration, unit, resolution) + " (half peak to peak), " +
-         place_text(place, place_resolution, axis);
-}
-
-namespace {
-
 /// "The vibration of row 19", "The velocity of row 3".
 std::string named_output(const std::string& name) {
   return (name.find(" of ") == std::string::npos ? "The vibration of " : "The ") + name;
@@ -59,6 +38,23 @@ void append_output_of_mode(std::vector<std::string>& sentences, const Table& out
 }
 
 }  // namespace
+
+std::string rounded_quantity(double value, const std::string& unit, double resolution) {
+  constexpr int most = 4;
+  return quantity(rounded(value, digits_of(1.0, resolution, most)), unit);
+}
+
+std::string place_text(double place, double resolution, const SweepAxis& axis) {
+  constexpr int most = 5;
+  const double at = rounded(place, digits_of(place, resolution, most));
+  return (axis.quantity == "frequency" ? "at " : "at an amplitude of ") + quantity(at, axis.unit, most);
+}
+
+std::string peak_text(double vibration, const std::string& unit, double resolution, double place,
+                      double place_resolution, const SweepAxis& axis) {
+  return rounded_quantity(vibration, unit, resolution) + " (half peak to peak), " +
+         place_text(place, place_resolution, axis);
+}
 
 void append_output(std::vector<std::string>& sentences, const Table& outputs, std::size_t row,
                    const SweepAxis& axis) {

@@ -322,20 +322,6 @@ void append_mode(std::vector<std::string>& sentences, const Summary& summary) {
         short_number(number_in(summary, quantities::virial_residual), 2)));
 }
 
-}  // namespace
-
-std::vector<std::string> output_sentences(const Summary& summary, const SweepAxis& axis) {
-  constexpr std::size_t most = 12;
-  const auto* outputs = value_in<Table>(summary, quantities::outputs.name);
-  const std::string leading = text_in(summary, quantities::leading_output);
-  std::vector<std::string> sentences;
-  for (std::size_t i = 0; outputs != nullptr && i < std::min(most, outputs->rows()); ++i)
-    if (cell_text(outputs->at(i, "output")) != leading) append_output(sentences, *outputs, i, axis);
-  return sentences;
-}
-
-namespace {
-
 bool is_curve(const Summary& summary) {
   const std::string analysis = text_in(summary, quantities::analysis);
   return analysis == "frequency_sweep" || analysis == "amplitude_sweep";
@@ -352,6 +338,16 @@ bool is_solved(const Summary& summary) {
 }
 
 }  // namespace
+
+std::vector<std::string> output_sentences(const Summary& summary, const SweepAxis& axis) {
+  constexpr std::size_t most = 12;
+  const auto* outputs = value_in<Table>(summary, quantities::outputs.name);
+  const std::string leading = text_in(summary, quantities::leading_output);
+  std::vector<std::string> sentences;
+  for (std::size_t i = 0; outputs != nullptr && i < std::min(most, outputs->rows()); ++i)
+    if (cell_text(outputs->at(i, "output")) != leading) append_output(sentences, *outputs, i, axis);
+  return sentences;
+}
 
 std::vector<std::string> finding_sentences(const Summary& summary, double gap, const SweepAxis& axis) {
   std::vector<std::string> sentences;

@@ -47,50 +47,6 @@ void append_mesh_files(std::vector<RecordFile>& files, const Moving& moving, con
   files.push_back({name + ".body.js", body_script(name, body), "the moving body of report.html"});
 }
 
-}  // namespace
-
-std::vector<RecordFile> motion_files(const StructureModel& model, const Eigen::MatrixXd& coordinates,
-                                     const std::string& name) {
-  std::vector<RecordFile> files;
-  if (coordinates.cols() == 0) return files;
-  const Eigen::MatrixXd whole = model.recover(coordinates);
-  std::vector<Eigen::Matrix3Xd> frames;
-  if (model.blade) {
-    const fem::SolidModel& solid = model.blade->model;
-    for (const auto& unknowns : whole.colwise()) frames.push_back(solid.displacements(unknowns));
-    append_mesh_files(files, solid, fem::mesh_of(solid.mesh), std::move(frames), name);
-    return files;
-  }
-  constexpr const char* rows =
-      "displacement of every degree of freedom (row) at uniform instants of the period (column), m";
-  files.push_back({name + ".mtx", fem::matrix_market_text(whole, rows), about_motion});
-  if (!model.mesh) return files;
-  for (const auto& unknowns : whole.colwise()) {
-    const Eigen::VectorXd moved = model.mesh->displacements * unknowns;
-    frames.emplace_back(moved.reshaped(3, moved.size() / 3));
-  }
-  append_mesh_files(files, *model.mesh, model.mesh->mesh, std::move(frames), name);
-  return files;
-}
-
-void append_motion_files(Record& record, const Scene& scene, const StructureModel& model,
-                         const WrittenMotion& motion, const std::string& name, const std::string& about) {
-  const bool several = motion.contacts.rows() > 1;
-  record.files.push_back({name + ".csv", csv_text(response_table(motion.contacts.contact(motion.contact))),
-                          about + (several ? ": the contact with the largest force" : "")});
-  if (several)
-    record.files.push_back({name + "_contacts.csv", csv_text(contacts_table(scene, motion.contacts)),
-                            about + ": every contact"});
-  if (!motion.impacts.columns().empty())
-    record.files.push_back({name + "_impacts.csv", csv_text(motion.impacts), about + ": its impacts"});
-  for (RecordFile& file : motion_files(model, motion.structure, name)) {
-    file.about = about + ": the whole structure";
-    record.files.push_back(std::move(file));
-  }
-}
-
-namespace {
-
 Summary motion_row(const Scene& scene, const CurveMotion& motion, const SweepAxis& axis, bool with_phases) {
   Summary row{{"file", motion.name + ".csv"}, {"at", motion.at}, {axis.column(), motion.place}};
   append_motion(row, scene, motion.contacts, motion.contact);
@@ -142,6 +98,46 @@ void append_contact_instants(Record& record, const Scene& scene, const std::vect
 }
 
 }  // namespace
+
+std::vector<RecordFile> motion_files(const StructureModel& model, const Eigen::MatrixXd& coordinates,
+                                     const std::string& name) {
+  std::vector<RecordFile> files;
+  if (coordinates.cols() == 0) return files;
+  const Eigen::MatrixXd whole = model.recover(coordinates);
+  std::vector<Eigen::Matrix3Xd> frames;
+  if (model.blade) {
+    const fem::SolidModel& solid = model.blade->model;
+    for (const auto& unknowns : whole.colwise()) frames.push_back(solid.displacements(unknowns));
+    append_mesh_files(files, solid, fem::mesh_of(solid.mesh), std::move(frames), name);
+    return files;
+  }
+  constexpr const char* rows =
+      "displacement of every degree of freedom (row) at uniform instants of the period (column), m";
+  files.push_back({name + ".mtx", fem::matrix_market_text(whole, rows), about_motion});
+  if (!model.mesh) return files;
+  for (const auto& unknowns : whole.colwise()) {
+    const Eigen::VectorXd moved = model.mesh->displacements * unknowns;
+    frames.emplace_back(moved.reshaped(3, moved.size() / 3));
+  }
+  append_mesh_files(files, *model.mesh, model.mesh->mesh, std::move(frames), name);
+  return files;
+}
+
+void append_motion_files(Record& record, const Scene& scene, const StructureModel& model,
+                         const WrittenMotion& motion, const std::string& name, const std::string& about) {
+  const bool several = motion.contacts.rows() > 1;
+  record.files.push_back({name + ".csv", csv_text(response_table(motion.contacts.contact(motion.contact))),
+                          about + (several ? ": the contact with the largest force" : "")});
+  if (several)
+    record.files.push_back({name + "_contacts.csv", csv_text(contacts_table(scene, motion.contacts)),
+                            about + ": every contact"});
+  if (!motion.impacts.columns().empty())
+    record.files.push_back({name + "_impacts.csv", csv_text(motion.impacts), about + ": its impacts"});
+  for (RecordFile& file : motion_files(model, motion.structure, name)) {
+    file.about = about + ": the whole structure";
+    record.files.push_back(std::move(file));
+  }
+}
 
 void append_motions(Record& record, const Scene& scene, const StructureModel& model, const Sweep& sweep,
                     const std::vector<CurveMotion>& motions) {

@@ -123,22 +123,6 @@ void append_turning_points(Record& record, const Sweep& sweep, bool known) {
       of_samples.size(), folds.size(), folds.size() == 1 ? "" : "s");
 }
 
-}  // namespace
-
-void append_stability(Record& record, const ResponseStability& stability, std::string_view motion) {
-  record.add(quantities::stability, stability.status);
-  record.add(quantities::unstable_multipliers, stability.unstable >= 0
-                                                   ? SummaryValue(std::int64_t{stability.unstable})
-                                                   : SummaryValue(missing));
-  record.add(quantities::leading_multiplier_real, stability.leading.real());
-  record.add(quantities::leading_multiplier_imag, stability.leading.imag());
-  if (stability.unstable <= 0) return;
-  warn(record, "The {} is unstable, with {} Floquet multiplier{} outside the unit circle.", motion,
-       stability.unstable, stability.unstable == 1 ? "" : "s");
-}
-
-namespace {
-
 /// Whether stability is known along the curve, or at how many points it is not and why, and where motions are
 /// unstable.
 void append_status_along(Record& record, const Sweep& sweep, bool complete) {
@@ -153,30 +137,6 @@ void append_status_along(Record& record, const Sweep& sweep, bool complete) {
   Table parts = unstable_parts(sweep);
   if (!parts.empty()) record.add(quantities::unstable_parts, std::move(parts));
 }
-
-}  // namespace
-
-void append_stability(Record& record, const Scene& scene, const Sweep& sweep) {
-  const bool complete =
-      !sweep.stability.cancelled && sweep.stability.points.size() == sweep.curve.points.size();
-  // Curves with impacts turn at grazings, too, and exactly.
-  const bool folds_alone = sweep.impacts.empty() && folds_are_known(sweep.stability);
-  append_turning_points(record, sweep, complete && folds_alone && scene.analysis.special_points);
-  if (sweep.stability.points.empty()) return;
-  append_status_along(record, sweep, complete);
-  warn_where_all_are_unstable(record, sweep.stability_of(0).points);
-  if (!scene.analysis.special_points) return;
-  record.add(quantities::special_points, table_of(sweep));
-  append_structure_points(record, sweep);
-  if (!sweep.unexplained.empty())
-    warn(record,
-         "Before {} {} the number of unstable multipliers changes without a listed "
-         "bifurcation point: one is missing.",
-         short_numbers(sweep.unexplained, 6), sweep_axis(sweep).unit);
-  warn_of_quasi_periodic_motions(record, sweep.stability.special_points, sweep);
-}
-
-namespace {
 
 /// "frequency_to", or "amplitude_to" of a branch that left the interval of an amplitude sweep there.
 std::string end_of_branch(const solvers::Branch& branch, const SweepAxis& axis) {
@@ -205,28 +165,6 @@ bool ended_well(const solvers::Branch& branch) {
          branch.end == BranchEnd::from_end || branch.end == BranchEnd::to_end ||
          branch.end == BranchEnd::closed;
 }
-
-}  // namespace
-
-void append_branches(Record& record, const Sweep& sweep) {
-  const std::string place = sweep_axis(sweep).column();
-  Table table({"branch", "parent", "type", place, "period", "lowest_" + place, "highest_" + place,
-               "max_displacement_m", "points", "end", "end_" + place, "stability"});
-  for (std::size_t i = 0; i < sweep.branches.size(); ++i) {
-    table.append_row(branch_row(sweep, i));
-    warn_of_quasi_periodic_motions(record, sweep.branches[i].stability.special_points, sweep);
-    if (ended_well(sweep.branches[i])) continue;
-    warn(record, "Branch {} was not followed to an end: {}.", i + 1, to_string(sweep.branches[i].end));
-  }
-  record.add("branches", table);
-  std::vector<Summary> special;
-  for (std::size_t i = 0; i < sweep.branches.size(); ++i)
-    append_special_points(special, {{"branch", i + 1}}, sweep, sweep.branches[i].stability,
-                          sweep.phases_of(i + 1));
-  record.add("special_points_of_branches", table_of(special));
-}
-
-namespace {
 
 /// Where an isola lies and how it ended.
 std::vector<Cell> isola_row(const Sweep& isola, std::size_t number) {
@@ -271,6 +209,56 @@ void append_isolas_found(Record& record, const Sweep& sweep) {
 }
 
 }  // namespace
+
+void append_stability(Record& record, const ResponseStability& stability, std::string_view motion) {
+  record.add(quantities::stability, stability.status);
+  record.add(quantities::unstable_multipliers, stability.unstable >= 0
+                                                   ? SummaryValue(std::int64_t{stability.unstable})
+                                                   : SummaryValue(missing));
+  record.add(quantities::leading_multiplier_real, stability.leading.real());
+  record.add(quantities::leading_multiplier_imag, stability.leading.imag());
+  if (stability.unstable <= 0) return;
+  warn(record, "The {} is unstable, with {} Floquet multiplier{} outside the unit circle.", motion,
+       stability.unstable, stability.unstable == 1 ? "" : "s");
+}
+
+void append_stability(Record& record, const Scene& scene, const Sweep& sweep) {
+  const bool complete =
+      !sweep.stability.cancelled && sweep.stability.points.size() == sweep.curve.points.size();
+  // Curves with impacts turn at grazings, too, and exactly.
+  const bool folds_alone = sweep.impacts.empty() && folds_are_known(sweep.stability);
+  append_turning_points(record, sweep, complete && folds_alone && scene.analysis.special_points);
+  if (sweep.stability.points.empty()) return;
+  append_status_along(record, sweep, complete);
+  warn_where_all_are_unstable(record, sweep.stability_of(0).points);
+  if (!scene.analysis.special_points) return;
+  record.add(quantities::special_points, table_of(sweep));
+  append_structure_points(record, sweep);
+  if (!sweep.unexplained.empty())
+    warn(record,
+         "Before {} {} the number of unstable multipliers changes without a listed "
+         "bifurcation point: one is missing.",
+         short_numbers(sweep.unexplained, 6), sweep_axis(sweep).unit);
+  warn_of_quasi_periodic_motions(record, sweep.stability.special_points, sweep);
+}
+
+void append_branches(Record& record, const Sweep& sweep) {
+  const std::string place = sweep_axis(sweep).column();
+  Table table({"branch", "parent", "type", place, "period", "lowest_" + place, "highest_" + place,
+               "max_displacement_m", "points", "end", "end_" + place, "stability"});
+  for (std::size_t i = 0; i < sweep.branches.size(); ++i) {
+    table.append_row(branch_row(sweep, i));
+    warn_of_quasi_periodic_motions(record, sweep.branches[i].stability.special_points, sweep);
+    if (ended_well(sweep.branches[i])) continue;
+    warn(record, "Branch {} was not followed to an end: {}.", i + 1, to_string(sweep.branches[i].end));
+  }
+  record.add("branches", table);
+  std::vector<Summary> special;
+  for (std::size_t i = 0; i < sweep.branches.size(); ++i)
+    append_special_points(special, {{"branch", i + 1}}, sweep, sweep.branches[i].stability,
+                          sweep.phases_of(i + 1));
+  record.add("special_points_of_branches", table_of(special));
+}
 
 void append_isolas(Record& record, const Scene& scene, const Sweep& sweep) {
   if (scene.contact.law == no_law || sweep.curve.points.empty()) return;

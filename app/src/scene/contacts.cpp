@@ -100,6 +100,11 @@ int tangents_of(const Scene& scene, const SceneContact& contact) {
   return scene.contact.pairs[*contact.pair].second_tangent.empty() ? 1 : 2;
 }
 
+std::string with_direction(const std::string& name, const SceneContact& contact) {
+  const std::string direction = direction_name(contact);
+  return name + (direction.empty() ? "" : " " + direction);
+}
+
 }  // namespace
 
 bool is_signal(const SceneContact& contact) { return contact.place > 0 && reads_signal(contact.law); }
@@ -130,15 +135,6 @@ std::string direction_name(const SceneContact& contact) {
 bool has_directions(const std::vector<SceneContact>& contacts) {
   return std::ranges::any_of(contacts, [](const SceneContact& one) { return one.directions > 1; });
 }
-
-namespace {
-
-std::string with_direction(const std::string& name, const SceneContact& contact) {
-  const std::string direction = direction_name(contact);
-  return name + (direction.empty() ? "" : " " + direction);
-}
-
-}  // namespace
 
 std::string whole_name_of(const SceneContact& contact) {
   return contact.name.empty() ? "contact " + std::to_string(contact.number) : contact.name;

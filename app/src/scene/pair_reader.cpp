@@ -137,16 +137,6 @@ class PairReader {
   std::vector<SceneKey> keys_;
 };
 
-}  // namespace
-
-bool is_pair_section(std::string_view section) { return section.starts_with("contact.pairs["); }
-
-std::size_t count_pairs(const Document& document) {
-  return count_tables(document, "contact.pairs", most_pairs);
-}
-
-namespace {
-
 /// The first of the laws of pairs that is one, before others a rigid one; nullptr where there is none.
 const DocumentEntry* first_law(const Document& document) {
   const std::vector<SceneKey> keys = pair_keys(0);
@@ -163,6 +153,12 @@ const DocumentEntry* first_law(const Document& document) {
 }
 
 }  // namespace
+
+bool is_pair_section(std::string_view section) { return section.starts_with("contact.pairs["); }
+
+std::size_t count_pairs(const Document& document) {
+  return count_tables(document, "contact.pairs", most_pairs);
+}
 
 Document with_law_of_pairs(Document document) {
   const DocumentEntry* law = document.find("contact", "law") == nullptr ? first_law(document) : nullptr;

@@ -33,36 +33,6 @@ std::size_t end_of_string(std::string_view text, std::size_t begin) {
   return text.size();
 }
 
-}  // namespace
-
-int line_of_long_key(std::string_view text, int max_parts) {
-  constexpr std::string_view delimiters = "\n=,[]{}";
-  int line = 1, parts = 1;
-  for (std::size_t at = 0; at < text.size();) {
-    const char c = text[at];
-    std::size_t end = at + 1;
-    if (c == '#')
-      end = end_of_comment(text, at);
-    else if (c == '"' || c == '\'')
-      end = end_of_string(text, at);
-    else if (c == '.' && ++parts > max_parts)
-      return line;
-    else if (delimiters.find(c) != std::string_view::npos)
-      parts = 1;
-    line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(at),
-                                        text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
-    at = end;
-  }
-  return 0;
-}
-
-std::string long_key_text() {
-  return "a key has more than " + std::to_string(max_key_parts) +
-         " parts between dots; expected section.key or [section]";
-}
-
-namespace {
-
 std::string_view line_of_text(std::string_view text, int line) {
   for (; line > 1 && !text.empty(); --line)
     text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
@@ -91,6 +61,32 @@ std::string quotes_text(std::string_view line) {
 }
 
 }  // namespace
+
+int line_of_long_key(std::string_view text, int max_parts) {
+  constexpr std::string_view delimiters = "\n=,[]{}";
+  int line = 1, parts = 1;
+  for (std::size_t at = 0; at < text.size();) {
+    const char c = text[at];
+    std::size_t end = at + 1;
+    if (c == '#')
+      end = end_of_comment(text, at);
+    else if (c == '"' || c == '\'')
+      end = end_of_string(text, at);
+    else if (c == '.' && ++parts > max_parts)
+      return line;
+    else if (delimiters.find(c) != std::string_view::npos)
+      parts = 1;
+    line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(at),
+                                        text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+    at = end;
+  }
+  return 0;
+}
+
+std::string long_key_text() {
+  return "a key has more than " + std::to_string(max_key_parts) +
+         " parts between dots; expected section.key or [section]";
+}
 
 toml::table parse_toml(std::string_view text, const std::string& name) {
   if (const int line = line_of_long_key(text, max_key_parts); line > 0)

@@ -70,53 +70,6 @@ std::string status_of(const StudyRecord& record) {
   return record.converged ? "converged" : record.complete ? "not_converged" : "interrupted";
 }
 
-}  // namespace
-
-Table study_table(const Study& study, const StudyRuns& runs, const std::vector<StudyRow>& rows) {
-  const std::vector<ValueColumn> values = value_columns(rows);
-  std::vector<std::string> names{"run"};
-  for (const StudyParameter& one : study.parameters) names.push_back(one.key);
-  for (const char* name : {"status", "converged", "seconds"}) names.emplace_back(name);
-  for (const ValueColumn& one : values) names.push_back(one.name);
-  names.emplace_back("message");
-  Table table(names);
-  for (const StudyRow& row : rows) {
-    std::vector<Cell> cells{row.run + 1};
-    for (std::size_t i = 0; i < runs.parameters(); ++i) cells.push_back(runs.cell(row.run, i));
-    cells.insert(cells.end(), {row.status, row.converged, row.seconds});
-    for (const ValueColumn& one : values) cells.push_back(found_cell(row, one));
-    cells.emplace_back(row.message);
-    table.append_row(std::move(cells));
-  }
-  return table;
-}
-
-Table quantiles_table(const Study& study, const Table& table) {
-  Table quantiles({"quantity", "runs", "mean", "min", "q05", "q25", "median", "q75", "q95", "max"});
-  for (std::size_t j = study.parameters.size() + 4; j + 1 < table.columns().size(); ++j) {
-    const std::vector<double> values = ordered_values(table, j);
-    if (values.empty() || values.front() == values.back()) continue;
-    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
-    std::vector<Cell> row{table.columns()[j], static_cast<std::int64_t>(values.size()), mean, values.front()};
-    for (const double share : {0.05, 0.25, 0.5, 0.75, 0.95}) row.emplace_back(quantile_of(values, share));
-    row.emplace_back(values.back());
-    quantiles.append_row(std::move(row));
-  }
-  return quantiles;
-}
-
-Table statuses_table(const Table& table) {
-  std::map<std::string, std::int64_t> counts;
-  for (std::size_t i = 0; i < table.rows(); ++i) ++counts[std::get<std::string>(table.at(i, "status"))];
-  std::vector<std::pair<std::string, std::int64_t>> ordered(counts.begin(), counts.end());
-  std::ranges::stable_sort(ordered, [](const auto& a, const auto& b) { return a.second > b.second; });
-  Table statuses({"status", "runs"});
-  for (const auto& [status, count] : ordered) statuses.append_row({status, count});
-  return statuses;
-}
-
-namespace {
-
 /// The column of the vibration of an output of this name; empty where there is none.
 std::string vibration_column(const Table& table, const std::string& output) {
   const std::string wanted = column_of(output) + "_half_peak_to_peak";
@@ -171,6 +124,49 @@ std::vector<std::string> changes_along(const Study& study, const StudyRuns& runs
 }
 
 }  // namespace
+
+Table study_table(const Study& study, const StudyRuns& runs, const std::vector<StudyRow>& rows) {
+  const std::vector<ValueColumn> values = value_columns(rows);
+  std::vector<std::string> names{"run"};
+  for (const StudyParameter& one : study.parameters) names.push_back(one.key);
+  for (const char* name : {"status", "converged", "seconds"}) names.emplace_back(name);
+  for (const ValueColumn& one : values) names.push_back(one.name);
+  names.emplace_back("message");
+  Table table(names);
+  for (const StudyRow& row : rows) {
+    std::vector<Cell> cells{row.run + 1};
+    for (std::size_t i = 0; i < runs.parameters(); ++i) cells.push_back(runs.cell(row.run, i));
+    cells.insert(cells.end(), {row.status, row.converged, row.seconds});
+    for (const ValueColumn& one : values) cells.push_back(found_cell(row, one));
+    cells.emplace_back(row.message);
+    table.append_row(std::move(cells));
+  }
+  return table;
+}
+
+Table quantiles_table(const Study& study, const Table& table) {
+  Table quantiles({"quantity", "runs", "mean", "min", "q05", "q25", "median", "q75", "q95", "max"});
+  for (std::size_t j = study.parameters.size() + 4; j + 1 < table.columns().size(); ++j) {
+    const std::vector<double> values = ordered_values(table, j);
+    if (values.empty() || values.front() == values.back()) continue;
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+    std::vector<Cell> row{table.columns()[j], static_cast<std::int64_t>(values.size()), mean, values.front()};
+    for (const double share : {0.05, 0.25, 0.5, 0.75, 0.95}) row.emplace_back(quantile_of(values, share));
+    row.emplace_back(values.back());
+    quantiles.append_row(std::move(row));
+  }
+  return quantiles;
+}
+
+Table statuses_table(const Table& table) {
+  std::map<std::string, std::int64_t> counts;
+  for (std::size_t i = 0; i < table.rows(); ++i) ++counts[std::get<std::string>(table.at(i, "status"))];
+  std::vector<std::pair<std::string, std::int64_t>> ordered(counts.begin(), counts.end());
+  std::ranges::stable_sort(ordered, [](const auto& a, const auto& b) { return a.second > b.second; });
+  Table statuses({"status", "runs"});
+  for (const auto& [status, count] : ordered) statuses.append_row({status, count});
+  return statuses;
+}
 
 std::string drawn_quantity(const Study& study, const Table& table) {
   if (table.empty()) return "";
