@@ -6,8 +6,7 @@
 /// or is none where it cannot help there; next_steps() checks whether the rules of scenes accept it.
 namespace wavebalance::app::moves {
 
-using Change = std::optional<NextStep>(const Scene&);
-using Move = std::function<Change>;
+using Move = std::function<std::optional<NextStep>(const Scene&)>;
 
 /// The same for every scene.
 Move always(const std::string& words, const SceneChange& change = {});
@@ -18,18 +17,37 @@ Move scaled(const std::string& words, const std::string& key, double factor,
             double most = std::numeric_limits<double>::infinity());
 
 // Remedies for harmonic or wavelet balance.
-Change more_functions, odd_functions, more_points, tolerance_in_place, sizes_in_place, dropped_nyquist;
+std::optional<NextStep> more_functions(const Scene& scene);
+std::optional<NextStep> odd_functions(const Scene& scene);
+std::optional<NextStep> more_points(const Scene& scene);
+std::optional<NextStep> tolerance_in_place(const Scene& scene);
+std::optional<NextStep> sizes_in_place(const Scene& scene);
+std::optional<NextStep> dropped_nyquist(const Scene& scene);
 
 // Remedies that change the analysis or its method.
-Change balance, response, response_of_periods;
+std::optional<NextStep> balance(const Scene& scene);
+std::optional<NextStep> response(const Scene& scene);
+std::optional<NextStep> response_of_periods(const Scene& scene);
 
 // Remedies that change structure, load or contact.
-Change more_damping, fewer_modes, elastic_friction, damping_depth, no_rebound, more_rebound, stiff_law;
+std::optional<NextStep> more_damping(const Scene& scene);
+std::optional<NextStep> fewer_modes(const Scene& scene);
+std::optional<NextStep> elastic_friction(const Scene& scene);
+std::optional<NextStep> damping_depth(const Scene& scene);
+std::optional<NextStep> no_rebound(const Scene& scene);
+std::optional<NextStep> more_rebound(const Scene& scene);
+std::optional<NextStep> stiff_law(const Scene& scene);
 
 // Remedies for curves.
-Change reversed, other_start, exact_curve, curve_of_balance, smaller_step;
+std::optional<NextStep> reversed(const Scene& scene);
+std::optional<NextStep> other_start(const Scene& scene);
+std::optional<NextStep> exact_curve(const Scene& scene);
+std::optional<NextStep> curve_of_balance(const Scene& scene);
+std::optional<NextStep> smaller_step(const Scene& scene);
 
 // Remedies for modes, time stepping and the search for motions.
-Change samples_of_harmonics, more_harmonics, more_starts;
+std::optional<NextStep> samples_of_harmonics(const Scene& scene);
+std::optional<NextStep> more_harmonics(const Scene& scene);
+std::optional<NextStep> more_starts(const Scene& scene);
 
 }  // namespace wavebalance::app::moves

@@ -62,17 +62,30 @@ std::string matrices_line(const Scene& scene) {
 }
 
 std::string structure_line(const Scene& scene) {
-  if (scene.structure.type == StructureType::blade) return blade_line(scene);
-  return scene.structure.type == StructureType::matrices ? matrices_line(scene) : bar_line(scene.structure);
+  switch (scene.structure.type) {
+    case StructureType::blade:
+      return blade_line(scene);
+    case StructureType::matrices:
+      return matrices_line(scene);
+    case StructureType::bar:
+      break;
+  }
+  return bar_line(scene.structure);
 }
 
 std::string force_place(const Scene& scene) {
   const Forcing& forcing = scene.forcing;
-  if (scene.structure.type == StructureType::bar) return "at the tip";
-  if (scene.structure.type == StructureType::blade)
-    return "at the tip's " + name_of(forcing.place) + " along " + name_of(forcing.direction);
-  return forcing.load.empty() ? "on " + count_text(std::ssize(forcing.load_dofs), "degree") + " of freedom"
-                              : "along the load vector";
+  switch (scene.structure.type) {
+    case StructureType::blade:
+      return "at the tip's " + name_of(forcing.place) + " along " + name_of(forcing.direction);
+    case StructureType::matrices:
+      return forcing.load.empty()
+                 ? "on " + count_text(std::ssize(forcing.load_dofs), "degree") + " of freedom"
+                 : "along the load vector";
+    case StructureType::bar:
+      break;
+  }
+  return "at the tip";
 }
 
 /// Where a term acts; empty if its structure has a single place.

@@ -118,18 +118,23 @@ std::string kind_sentence(const RecordedMotion& motion, double frequency) {
           ? fmt::format("the largest Lyapunov exponent is {} ± {} per forcing period",
                         short_number(motion.exponent.value, 3), short_number(motion.exponent.error, 2))
           : std::string("the largest Lyapunov exponent was not found");
-  if (motion.kind == MotionKind::chaotic) return before + "It is chaotic: " + measured + ".";
-  if (motion.kind == MotionKind::periodic)
-    return before + fmt::format("In the recorded part it repeats after {} of them.", motion.repeats);
-  if (motion.kind == MotionKind::settling)
-    return before + "Perturbations decay, so it is still transient or has a long period: " + measured + ".";
-  if (motion.kind == MotionKind::quasi_periodic)
-    return before + fmt::format(
-                        "It is quasi-periodic with a second frequency of {} (plus multiples of the forcing "
-                        "frequency). Its section is a closed curve within {} of its size. As expected, {}, "
-                        "zero within its error.",
-                        quantity(motion.curve.rotation * frequency, "Hz"),
-                        percentage(motion.curve.residual, 1), measured);
+  switch (motion.kind) {
+    case MotionKind::chaotic:
+      return before + "It is chaotic: " + measured + ".";
+    case MotionKind::quasi_periodic:
+      return before + fmt::format(
+                          "It is quasi-periodic with a second frequency of {} (plus multiples of the forcing "
+                          "frequency). Its section is a closed curve within {} of its size. As expected, {}, "
+                          "zero within its error.",
+                          quantity(motion.curve.rotation * frequency, "Hz"),
+                          percentage(motion.curve.residual, 1), measured);
+    case MotionKind::periodic:
+      return before + fmt::format("In the recorded part it repeats after {} of them.", motion.repeats);
+    case MotionKind::settling:
+      return before + "Perturbations decay, so it is still transient or has a long period: " + measured + ".";
+    case MotionKind::not_known:
+      break;
+  }
   return before + "Whether it is aperiodic or still transient is not known: " + measured + ".";
 }
 

@@ -22,13 +22,23 @@ using detail::MatrixPart;
 
 std::vector<NamedMatrix> read_format(MatrixFormat format, std::istream& input, const std::string& name,
                                      std::string_view wanted, MatrixPart part) {
-  using enum MatrixFormat;
-  if (format == matrix_market) return {plain(read_matrix_market(input, name))};
-  if (format == calculix) return {plain(read_calculix_matrix(input, name))};
-  if (format == harwell_boeing) return detail::read_harwell_boeing_parts(input, name, part);
-  if (format == abaqus) return read_abaqus_matrix(input, name);
-  if (format == substructure) return read_substructure(input, name);
-  return format == dmig ? read_dmig(input, name, wanted) : read_output4(input, name, wanted);
+  switch (format) {
+    case MatrixFormat::matrix_market:
+      return {plain(read_matrix_market(input, name))};
+    case MatrixFormat::calculix:
+      return {plain(read_calculix_matrix(input, name))};
+    case MatrixFormat::harwell_boeing:
+      return detail::read_harwell_boeing_parts(input, name, part);
+    case MatrixFormat::abaqus:
+      return read_abaqus_matrix(input, name);
+    case MatrixFormat::substructure:
+      return read_substructure(input, name);
+    case MatrixFormat::dmig:
+      return read_dmig(input, name, wanted);
+    case MatrixFormat::output4:
+      return read_output4(input, name, wanted);
+  }
+  return {};
 }
 
 /// Content of a file; with a name the others have only names.
