@@ -10,7 +10,7 @@ Two levels. A scene is a file, a text or a dictionary with the keys of ``wavebal
 A custom structure is made of SciPy's sparse matrices:
 
 - :class:`Structure`, the contact laws (:class:`Penalty`, :class:`Rigid`, ...) and the :class:`Pair` of bases;
-- :func:`read_matrices` reads those of other codes;
+- :func:`read_matrices` reads those of other codes, :func:`convert_mesh` their meshes;
 - :func:`forced_response`, :func:`frequency_sweep`, :func:`amplitude_sweep`, :func:`stability`, :func:`backbone`,
   :func:`damped_mode`;
 - :mod:`wavebalance.wavelets`: values of bases and connection coefficients.
@@ -46,7 +46,7 @@ from .laws import (
     Rigid,
     Table,
 )
-from .matrix_files import MatrixFiles, read_matrices
+from .matrix_files import MatrixFiles, convert_mesh, read_matrices
 from .modes import Backbone, DampedMode, backbone, damped_mode
 from .record import Record
 from .responses import Motion, Problem, Response, Stability, forced_response, harmonics_of, stability
@@ -95,6 +95,7 @@ __all__ = [
     "check",
     "compare",
     "complete",
+    "convert_mesh",
     "damped_mode",
     "forced_response",
     "frequency_sweep",

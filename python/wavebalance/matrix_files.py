@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ import numpy.typing as npt
 
 from . import _core
 
-__all__ = ["MatrixFiles", "read_matrices"]
+__all__ = ["MatrixFiles", "convert_mesh", "read_matrices"]
 
 PathLike = str | os.PathLike[str]
 
@@ -92,3 +93,33 @@ def read_matrices(files: PathLike | Iterable[PathLike]) -> MatrixFiles:
         load = matrices["load"].toarray()
         matrices["load"] = load[:, 0] if load.shape[1] == 1 else load
     return MatrixFiles(matrices, None if rows is None else tuple(rows), nodes, None if rows is None else np.array(directions))
+
+
+def convert_mesh(file: PathLike, output: PathLike) -> None:
+    """Writes a mesh of another program as an input file for ``structure.mesh``. Requires meshio.
+
+    Parameters
+    ----------
+    file:
+        A mesh of a format of meshio: Gmsh, VTK, MED, Nastran bulk data, ...
+    output:
+        A new file, such as ``"pipe.inp"``. Its nodes are numbered from 1 in the order of the mesh, and the dof map must
+        use these numbers.
+
+    Raises
+    ------
+    FileExistsError
+        ``output`` is there already.
+    ValueError
+        meshio cannot read the file.
+    """
+    import meshio  # an optional package
+
+    if os.path.exists(output):
+        raise FileExistsError(f"{os.fspath(output)} is there already; name a new file")
+    try:
+        mesh = meshio.read(file)
+    except (meshio.ReadError, SystemExit) as error:  # meshio itself exits
+        raise ValueError(f"{os.fspath(file)} is no mesh that meshio reads: {error}") from None
+    mesh.point_sets = mesh.cell_sets = {}
+    meshio.write(Path(output), mesh, file_format="abaqus")

@@ -90,3 +90,46 @@ def test_clamped_nodes_of_the_bracket_stay_and_others_move_with_their_rows(tmp_p
         expected[tuple(np.transpose(places))] = u
         np.testing.assert_array_equal(moved, expected)
         assert np.count_nonzero(~moved.any(axis=1)) == len(moved) - len({node for node, _ in places}) > 0
+
+
+GMSH = """$MeshFormat
+4.1 0 8
+$EndMeshFormat
+$Entities
+0 1 0 0
+1 0 0 0 0 0 3 0 0
+$EndEntities
+$Nodes
+1 4 1 4
+1 1 0 4
+1
+2
+3
+4
+0 0 1
+0 0 2
+0 0 3
+0 0 0
+$EndNodes
+$Elements
+1 3 1 3
+1 1 1 3
+1 4 1
+2 1 2
+3 2 3
+$EndElements
+"""
+
+
+def test_a_mesh_of_gmsh_moves_as_that_of_calculix(meshed_chain, tmp_path):
+    _, expected = written(MESHED, tmp_path / "inp", {"analysis.motion_points": 4})
+    (meshed_chain / "chain.msh").write_text(GMSH)
+    wb.convert_mesh("chain.msh", "gmsh.inp")
+    _, nodes = written(MESHED, tmp_path / "msh", {"analysis.motion_points": 4, "structure.mesh": "gmsh.inp"})
+    np.testing.assert_array_equal(nodes, expected)
+    with pytest.raises(FileExistsError, match="gmsh.inp"):
+        wb.convert_mesh("chain.msh", "gmsh.inp")
+    (meshed_chain / "bad.msh").write_text("no mesh")
+    with pytest.raises(ValueError, match="bad.msh"):
+        wb.convert_mesh("bad.msh", "other.inp")
+    assert not (meshed_chain / "other.inp").exists()
