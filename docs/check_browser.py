@@ -15,6 +15,9 @@ LOOK = """(() => {
   if (root.scrollWidth > innerWidth) faults.push(`${root.scrollWidth} pixels wide on a screen of ${innerWidth}`);
   if (count(".katex-error")) faults.push(`${count(".katex-error")} formulas that KaTeX refuses`);
   if (count(".highlight") != count(".highlight > .copy")) faults.push("listings without a button that copies them");
+  for (const copy of root.querySelectorAll(".highlight > .copy"))
+    if (copy.getBoundingClientRect().left < copy.parentElement.querySelector("pre").getBoundingClientRect().right)
+      faults.push("the button that copies lies over its listing");
   if (count(".formula") != count(".formula .katex")) faults.push("formulas that are not set");
   for (const image of document.images)
     if (image.complete && !image.naturalWidth) faults.push(`${image.getAttribute("src")} does not load`);
@@ -23,7 +26,8 @@ LOOK = """(() => {
 
 
 def faults_of(browser, page):
-    """What is wrong with a page. It is loaded once: among widths below 1000 pixels, where site.js folds the contents, its styles differ."""
+    """Faults of a page. It is loaded once: its styles differ only among widths below 1000 pixels, where site.js folds
+    the contents."""
     browser.open(page, WIDTHS[0])
     found = browser.value(LOOK)
     browser.resize(WIDTHS[1])
@@ -31,7 +35,7 @@ def faults_of(browser, page):
 
 
 def dark_faults(browser, page):
-    """Whether the page stays bright where the screen is dark, or its text cannot be told from it."""
+    """Whether the page stays bright where the screen is dark, or its text cannot be distinguished from it."""
     browser.open(page, WIDTHS[1], dark=True)
     ground, text = browser.value("""["backgroundColor", "color"].map((one) => getComputedStyle(document.body)[one].match(/\\d+/g)
       .slice(0, 3).reduce((sum, part) => sum + Number(part) / 3, 0))""")

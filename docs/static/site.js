@@ -10,7 +10,7 @@ document.addEventListener("DOMContentLoaded", () => {
   if (contents && window.innerWidth < 1000) contents.open = false;
 });
 
-// Of a listing with output, the commands alone are copied.
+// From a listing with output only the commands are copied.
 function textToCopy(listing) {
   const text = listing.querySelector("pre").textContent.replace(/\n$/, "");
   if (!listing.closest(".console")) return text;

@@ -23,7 +23,7 @@ def test_harmonics_are_those_of_the_linear_transfer_function(chain):
     curve = wb.frequency_sweep(structure, wb.NoContact(), 3.0, 8.0, stability=False)
     found = curve.harmonics(dofs=[0, 5], count=2)
     assert found.shape == (len(curve), 2, 3)
-    # The sum over the modes, which are those of the damping and of the mass, too.
+    # The sum over the modes, which also decouple damping and mass.
     modes = np.linalg.eigh(stiffness.toarray())[1]
     m, c, k = (np.diag(modes.T @ (matrix @ modes)) for matrix in (mass, damping, stiffness))
     omega = 2.0 * np.pi * curve.frequency[:, None]
@@ -42,6 +42,12 @@ def test_a_notebook_shows_curves_and_responses_as_pictures(curve, oscillator):
         picture = ElementTree.fromstring(page[page.index("<svg") :])
         assert picture.findall("{http://www.w3.org/2000/svg}polyline")
     assert "stroke-dasharray" in curve._repr_html_() or not (curve.unstable > 0).any()
+
+
+def test_pictures_of_notebooks_have_numbers_for_readers(oscillator):
+    small = wb.forced_response(oscillator(load=1e-5), wb.NoContact(), 0.2)
+    texts = [one.text for one in ElementTree.fromstring(small._repr_html_().split("</p>", 1)[1]).iter() if one.text]
+    assert any(text.endswith("(µm)") for text in texts) and not any("e-" in text for text in texts)
 
 
 def test_tables_are_those_of_pandas(curve):

@@ -2,7 +2,7 @@
 
 Two levels. A scene is a file, a text or a dictionary with the keys of ``wavebalance keys``:
 
-- :func:`run` solves it and returns a :class:`Record`; :func:`check` says what would be solved.
+- :func:`run` solves it and returns a :class:`Record`; :func:`check` describes it without solving.
 - :func:`compare` measures pairs of bases against each other.
 - :func:`study` solves it for many values of its keys, on all cores or with any executor.
 - :func:`progress` shows what long work does.
@@ -10,14 +10,15 @@ Two levels. A scene is a file, a text or a dictionary with the keys of ``wavebal
 A custom structure is made of SciPy's sparse matrices:
 
 - :class:`Structure`, the contact laws (:class:`Penalty`, :class:`Rigid`, ...) and the :class:`Pair` of bases;
-- :func:`read_matrices` reads those of other codes, :func:`convert_mesh` their meshes;
+- :func:`read_matrices` reads matrices of other codes, :func:`convert_mesh` their meshes;
 - :func:`forced_response`, :func:`frequency_sweep`, :func:`amplitude_sweep`, :func:`stability`, :func:`backbone`,
   :func:`damped_mode`;
 - :mod:`wavebalance.wavelets`: values of bases and connection coefficients.
 
-Units are SI or any other consistent set. Frequencies are in Hz. Not to converge is a status of a result, never an
+Units are SI or any other consistent set. Frequencies are in Hz. Non-convergence is a status of a result, never an
 exception. Bad input raises :class:`SceneError` or another ``ValueError`` with the text of the command. Ctrl-C ends a
-solve with ``KeyboardInterrupt``. Solves release the interpreter's lock, so that threads run beside each other.
+solve with
+``KeyboardInterrupt``. Solves release the interpreter's lock, so that threads run at the same time.
 """
 
 from ._compiled import require_core
@@ -109,7 +110,7 @@ __all__ = [
     "wavelets",
 ]
 
-for _name in laws.__all__:  # classes that are made from the catalogue alone
+for _name in laws.__all__:  # classes that are made only from the catalogue
     if _name not in __all__:
         globals()[_name] = getattr(laws, _name)
         __all__.append(_name)

@@ -18,7 +18,7 @@ def is_matrix(value: Any) -> bool:
     return scipy.sparse.issparse(value) or isinstance(value, np.ndarray)
 
 
-#: What a part of a structure takes in place of complex numbers; other parts are plainly real.
+#: Parameter that replaces complex numbers of a part of a structure; other parts must be real.
 _INSTEAD = {
     **dict.fromkeys(("K", "stiffness"), "; structural damping K (1 + i eta) is loss_factor = eta"),
     **dict.fromkeys(("C", "damping"), "; structural damping is the structure's loss_factor"),
@@ -69,7 +69,7 @@ def as_csc(value: Any, name: str) -> scipy.sparse.csc_matrix:
 
 
 def is_numpy_file(name: Any) -> bool:
-    """Whether a name is that of an array in a format of NumPy or SciPy."""
+    """Whether a name belongs to an array in a format of NumPy or SciPy."""
     return isinstance(name, (str, os.PathLike)) and os.fspath(name).endswith((".npz", ".npy"))
 
 

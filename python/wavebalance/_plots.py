@@ -13,7 +13,7 @@ from . import _core
 
 
 def axes(ax: Any) -> Any:
-    """`ax`, or those of a new figure. Raises ImportError without Matplotlib."""
+    """`ax`, or the axes of a new figure. Raises ImportError without Matplotlib."""
     if ax is not None:
         return ax
     try:
@@ -62,9 +62,14 @@ def _labelled(words: str, unit: str) -> str:
     return f"{words} ({unit})" if unit else words
 
 
+def _scaled(unit: str) -> bool:
+    return unit != "Hz" and _core.takes_prefix(unit)
+
+
 def name_axis(axis: Any, words: str, unit: str) -> None:
-    """Names an axis of Matplotlib. Its ticks have SI prefixes ("1 mm") where the unit can have them; data remain in the unit."""
-    if unit == "Hz" or not _core.takes_prefix(unit):
+    """Names an axis of Matplotlib. Its ticks have SI prefixes ("1 mm") where the unit can have them; data remain in
+    the unit."""
+    if not _scaled(unit):
         axis.set_label_text(_labelled(words, unit))
         return
     axis.set_label_text(words)
@@ -75,7 +80,7 @@ def record_sweep(columns: dict[str, Any], ax: Any = None, column: str = "max_dis
     ax = axes(ax)
     name = next(iter(columns))
     none = np.zeros(len(columns[name]))
-    # Isolas are on branch 0 of their own.
+    # Each isola has its own branch 0.
     branches = np.asarray(columns.get("branch", none)) - np.asarray(columns.get("isola", none))
     unstable = np.asarray(columns.get("unstable", np.zeros(len(columns[name]))))
     for branch in np.unique(branches):
@@ -97,7 +102,8 @@ def record_diagram(columns: dict[str, Any], ax: Any = None) -> Any:
     for one, colour in (("back", "#e69f00"), ("there", "#0072b2")):
         of = way == one
         if of.any():
-            ax.plot(columns[name][of], columns[displacement][of], ".", markersize=2, color=colour, label=f"on the way {one}")
+            label = "forward" if one == "there" else "backward"
+            ax.plot(columns[name][of], columns[displacement][of], ".", markersize=2, color=colour, label=label)
     ax.set_xlabel("Frequency (Hz)" if name == "frequency_Hz" else name.replace("_", " "))
     ax.set_ylabel("Displacement at the beginning of periods (" + displacement.removeprefix("displacement_") + ")")
     ax.legend()
@@ -201,7 +207,7 @@ def _runs(dashed: npt.NDArray[np.bool_]) -> list[tuple[int, int, bool]]:
 def _ends(limits: tuple[float, float], name: Name) -> tuple[str, str, str]:
     """Label of an axis, and the values at its ends in the unit of the label."""
     words, unit = name
-    factor, prefix = _core.axis_scale(max(map(abs, limits)), unit)
+    factor, prefix = _core.axis_scale(max(map(abs, limits)), unit) if _scaled(unit) else (1.0, "")
     low, high = (_core.short_number(factor * value, 4) for value in limits)
     return _labelled(words, prefix + unit), low, high
 

@@ -1,4 +1,4 @@
-"""What long work does, while it lasts."""
+"""Progress of long work."""
 
 from __future__ import annotations
 
@@ -49,17 +49,17 @@ def progress(show: Callable[[str, int, float, str, float], object] | None = None
     Parameters
     ----------
     show:
-        Called with the phase ("frequency sweep"), the steps of this phase so far, a value (NaN where there is none), what
-        that is ("Hz", "relative residual"), and the share of the whole work, 0 to 1 (NaN where it is not known). What it
-        raises ends the solve and is raised by it. Without it one line on the standard error is written anew.
+        Called with the phase ("frequency sweep"), the steps of this phase so far, a value (NaN if there is none), its
+        name ("Hz", "relative residual"), and the fraction of the whole work, 0 to 1 (NaN if not known). An exception
+        that it raises ends the solve and is passed on. Without it one line on the standard error is updated.
 
     Examples
     --------
     >>> with wb.progress():
     ...     curve = wb.frequency_sweep(structure, stop, 25.0, 50.0)
 
-    The function holds for all threads of the interpreter. Work on several cores calls it from the thread that waits for it;
-    studies have processes of their own, which do not.
+    The function holds for all threads of the interpreter. Work on several cores calls it from the thread that waits
+    for it. Processes of studies do not call it.
     """
     line = _Line()
     before = _core.exchange_progress(line if show is None else show)

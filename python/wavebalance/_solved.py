@@ -1,4 +1,4 @@
-"""What records, studies and comparisons have in common."""
+"""Common parts of records, studies and comparisons."""
 
 from __future__ import annotations
 

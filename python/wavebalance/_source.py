@@ -85,7 +85,7 @@ class _Store:
         return bool(self.files) and self._kept is None
 
     def keep(self) -> None:
-        """Removes those of an earlier run."""
+        """Removes the files of an earlier run."""
         for earlier in self._earlier.values():
             earlier.unlink()
 
@@ -103,7 +103,7 @@ class _Store:
 
 
 def _parts(scene: SceneLike, store: _Store) -> tuple[str, str]:
-    """Name for messages, and text; empty: that of the file."""
+    """Name for messages, and text; empty: read from the file."""
     if isinstance(scene, Mapping):
         return "scene", toml_text(_with_files(scene, store))
     if isinstance(scene, str) and "\n" in scene:
@@ -144,7 +144,7 @@ def _term_with_file(term: Any, number: int, store: _Store) -> Any:
 
 
 def _files_of_numpy(name: str, text: str, store: _Store) -> list[str]:
-    """Overrides for the files of NumPy that a file or text names. What is wrong with it the loader says."""
+    """Overrides for the files of NumPy that a file or text names. The loader reports its errors."""
     most_bytes = 1 << 20  # beyond which the loader refuses a file
     try:
         if not text and (not Path(name).is_file() or Path(name).stat().st_size > most_bytes):
@@ -164,7 +164,7 @@ def _files_of_numpy(name: str, text: str, store: _Store) -> list[str]:
 
 
 def _override_list(overrides: Overrides, store: _Store) -> list[str]:
-    """Overrides as the command takes them, "section.key=value"."""
+    """Overrides as for the command, "section.key=value"."""
     if overrides is None:
         return []
     if isinstance(overrides, str):

@@ -14,7 +14,7 @@ __all__ = ["Comparison", "compare"]
 
 
 class Comparison(Solved):
-    """What each pair of bases did in a scene.
+    """Results of each pair of bases in a scene.
 
     Attributes
     ----------
@@ -30,7 +30,7 @@ class Comparison(Solved):
         Columns of comparison.csv, a row for each solve: trial, weight, functions, points, seconds, error, ... Contact
         phases have the trial "phases".
     text: str
-        What to take, in sentences, with the ``[time]`` table of each choice.
+        The recommendation in sentences, with the ``[time]`` table of each choice.
     """
 
     def __init__(self, run: _core.ComparisonRun) -> None:
@@ -58,7 +58,7 @@ def compare(
     start_from: str | os.PathLike[str] | None = None,
     threads: int = 0,
 ) -> Comparison:
-    """Solves a scene in several pairs of bases and sizes, and says which to take, as ``wavebalance compare`` does.
+    """Solves a scene in several pairs of bases and sizes, and recommends one, as ``wavebalance compare`` does.
 
     Parameters
     ----------
@@ -67,15 +67,15 @@ def compare(
     pairs:
         Pairs such as ``["fourier:fourier", "haar:fourier"]``; all admissible ones of the common bases by default.
     error:
-        Which error decides, "displacement", "force" or "both", the larger; by default both, where that of the force is
-        defined.
+        The error that decides: "displacement", "force" or "both" (the larger); by default both, if the error of the
+        force is defined.
     budget:
         Wall time of everything, s, above 0.
     start_from:
-        A motion of an earlier run, as for :func:`wavebalance.run`, near which the reference is sought; each solve then begins
-        with the reference.
+        A motion of an earlier run, as for :func:`wavebalance.run`, near which the reference is computed; each solve
+        then starts from the reference.
     threads:
-        Pairs solved side by side; 0: one per core.
+        Pairs solved in parallel; 0: one per core.
 
     Raises
     ------

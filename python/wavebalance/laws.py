@@ -48,7 +48,7 @@ class Law(_core.Law):
         The number of contact directions that it acts along, consecutive rows of ``Structure.S``.
     """
 
-    _row = ""  # of the catalogue of laws, which says their parameters and ranges
+    _row = ""  # of the catalogue of laws with their parameters and ranges
 
     def __init__(self, law: _core.Law, keys: dict[str, Any]) -> None:
         super().__init__(law)
@@ -71,8 +71,8 @@ class Law(_core.Law):
         return super().potential(displacement)[()]
 
     def scene_keys(self) -> dict[str, Any]:
-        """The keys of ``[contact]`` that say this law in a scene. Raises ValueError where a scene has no such law."""
-        return {key: value for key, value in self._keys.items() if key != "tangents"}  # which its directions say
+        """The keys of ``[contact]`` for this law in a scene. Raises ValueError where a scene has no such law."""
+        return {key: value for key, value in self._keys.items() if key != "tangents"}  # which its directions define
 
     def __reduce__(self) -> Any:
         values = {key: value for key, value in self._keys.items() if key != "law"}
@@ -151,8 +151,8 @@ class Coulomb(Law):
     needs contacts without mass; `normal_load` >= 0, N, at zero displacement; `normal_stiffness`, N/m, 0 without a normal
     direction; `slider`, m, its position at rest; `wear_coefficient`, 1/Pa; `tangents`, 1 or 2; `normal_gap`, m.
 
-    Along one tangent also, all without a balance, from event to event: `static_friction`, which ends sticking; `surface_speed`,
-    m/s, of a belt or journal; `tangential_damping` and `normal_damping`, N s/m, beside the springs.
+    Along one tangent, solved from event to event: `static_friction`, which ends sticking; `surface_speed`, m/s, of a
+    belt or journal; `tangential_damping` and `normal_damping`, N s/m, parallel to the springs.
     """
 
     _row = "coulomb"
@@ -228,7 +228,8 @@ class Clearance(Law):
 class Table(Law):
     """A spring by its measured characteristic: the monotone cubic interpolant of points.
 
-    Parameters: `displacements`, m, ascending, and as many `forces`, N; or the name of a CSV file of both alone.
+    Parameters: `displacements`, m, ascending, and as many `forces`, N; or the name of a CSV file with only these
+    columns.
     """
 
     _row = "table"
@@ -264,7 +265,7 @@ class HuntCrossley(Law):
 
 
 class KelvinVoigt(Law):
-    """A spring and a damper beside each other that do not pull, f = max(k d + c s(d) v, 0) for d = u - g > 0.
+    """A spring and a damper in parallel that do not pull, f = max(k d + c s(d) v, 0) for d = u - g > 0.
 
     Parameters: `stiffness` k > 0, N/m; `damping` c >= 0, N s/m; `gap` g, m; `depth` >= 0, m, over which the damper sets in.
     """
@@ -290,7 +291,7 @@ class Function(Law):
         Its slope (N/m) by the displacement, with the arguments of `force`; by default a central difference over 6e-6 times
         the displacement, or times `length` near zero.
     potential:
-        Its integral (J) at rest from the gap; by default by quadrature between the kinks. Energies alone need it.
+        Its integral (J) at rest from the gap; by default by quadrature between the kinks. Only energies need it.
     damping:
         Its slope (N s/m) by the velocity, of a force with two arguments; by default a central difference over 6e-6 times the
         velocity, or times `speed` near zero.

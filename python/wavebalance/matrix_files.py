@@ -20,7 +20,7 @@ PathLike = str | os.PathLike[str]
 
 @dataclass(frozen=True)
 class MatrixFiles:
-    """What files of matrices hold, all in the same rows.
+    """Content of files of matrices, all in the same rows.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ def read_matrices(files: PathLike | Iterable[PathLike]) -> MatrixFiles:
     Returns
     -------
     MatrixFiles
-        Rows are those of the dof map, or all nodes that the files name, ascending. Rows that the stiffness marks as held
+        Rows follow the dof map, or all nodes that the files name, ascending. Rows that the stiffness marks as held
         (1e36 on its diagonal, Abaqus) are left out.
 
     Raises

@@ -27,11 +27,11 @@ class Backbone(_core.Backbone):
         "reached_energy" or "reached_frequency", or why it ended before: "internal_resonance", "lost", "no_start",
         "no_contact" or "point_limit".
     linear_frequency: float
-        Of the linear mode that is continued, Hz.
+        Frequency of the continued linear mode, Hz.
     frequency, frequency_ratio: numpy.ndarray
-        P values, Hz, and over that of the linear mode.
+        P values, Hz, and over the linear mode's.
     energy_ratio: numpy.ndarray
-        Energy over that of the linear mode that just touches.
+        Energy over the energy of the linear mode that just touches.
     contact_fraction, virial_residual: numpy.ndarray
         Share of the samples in contact; residual of the virial theorem, zero for exact motions.
     accepted: numpy.ndarray
@@ -102,17 +102,17 @@ def backbone(
     mode:
         The linear mode, from 1.
     largest_energy, largest_frequency_ratio:
-        Where the curve ends: energy over that of grazing and, if one is given, frequency over that of the linear mode.
+        Where the curve ends: energy over the energy of grazing and, if given, frequency over the linear mode's.
     points:
         About so many.
     harmonics, samples:
         N of the motion, and times at which contact is enforced, by default 2 N for rigid obstacles and 8 N otherwise.
     gaps:
-        Lengths that energies refer to, m, one per contact, for laws without a gap of their own.
+        Lengths that energies refer to, m, one per contact, for laws without a gap.
     cosine_only:
-        Whether only motions that are even in time are sought.
+        Whether only motions that are even in time are computed.
     stability:
-        Whether the Floquet multipliers of the points are counted; elastic laws alone.
+        Whether the Floquet multipliers of the points are counted; only for elastic laws.
 
     Raises
     ------
@@ -143,7 +143,7 @@ class DampedMode(_core.DampedCurve):
     status: str
         "reached_amplitude", or why it ended before: "lost", "no_start" or "point_limit".
     linear_frequency, linear_damping_ratio: float
-        Of the linear mode with the contacts as they are at rest, Hz and over critical.
+        Frequency (Hz) and damping ratio of the linear mode with the contacts as at rest.
     slip_amplitude: float
         m, up to which contacts do what they do at rest; infinite where they always do, 0 where at no amplitude.
     amplitude: numpy.ndarray

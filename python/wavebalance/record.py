@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import os
+import re
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ __all__ = ["Record"]
 
 
 class Columns(dict[str, Any]):
-    """The columns of a table; one that is not there is an error that says which are."""
+    """The columns of a table; a missing one is an error that lists the others."""
 
     def __missing__(self, name: str) -> Any:
         there = ", ".join(self) if self else "none, since the analysis has no such table"
@@ -25,16 +26,16 @@ class Columns(dict[str, Any]):
 
 
 class Record(Solved):
-    """What came out of a scene.
+    """Results of a scene.
 
-    The tables are dictionaries of columns, NumPy arrays (lists where a column holds text) by the names that the files of
-    the command have; a table that an analysis does not have is empty. A record can be pickled; its picture and
-    :meth:`write` are then those of the process that solved the scene.
+    The tables are dictionaries of columns, NumPy arrays (lists where a column holds text) by the names in the files of
+    the command. Tables that an analysis does not have are empty. A record can be pickled; its picture and
+    :meth:`write` then need the process that solved the scene.
 
     Attributes
     ----------
     converged: bool
-        Whether the analysis has reached what was asked for.
+        Whether the analysis succeeded.
     status: str
         "converged", "reached_end", or why not.
     warnings: list[str]
@@ -42,21 +43,21 @@ class Record(Solved):
     summary: dict
         The values of summary.json, units in their names; missing numbers are NaN.
     response: dict
-        Of a motion: time_fraction, displacement_m, velocity_m_per_s, contact_force_N over one period.
+        For a motion: time_fraction, displacement_m, velocity_m_per_s, contact_force_N over one period.
     contacts: dict
         Motion and force of every contact, where there are several.
     outputs: dict
-        Of a motion with analysis.outputs: time_fraction and a column for each, over one period. Of a curve the columns stand
-        in `sweep`, of a nonlinear mode in `backbone`.
+        For a motion with analysis.outputs: time_fraction and a column for each, over one period. Curves have these
+        columns in `sweep`, nonlinear modes in `backbone`.
     sweep: dict
-        Of a curve: frequency_Hz (or the amplitude), max_displacement_m, ..., unstable, contacts; with analysis.phases
+        For a curve: frequency_Hz (or the amplitude), max_displacement_m, ..., unstable, contacts; with analysis.phases
         error_of_displacement, error_of_force, phases_status, stability_by. The summary has these errors of the peak.
     section: dict
         Poincare section: of a bifurcation diagram the frequency or amplitude, way, period, point, displacement_m and
         velocity_m_per_s, a row for each point; of time stepping that does not repeat displacement and velocity of each place
         at the beginning of each recorded period.
     backbone: dict
-        Of a nonlinear mode: energy_ratio, frequency_Hz, frequency_ratio, ..., contact_fraction.
+        For a nonlinear mode: energy_ratio, frequency_Hz, frequency_ratio, ..., contact_fraction.
     bar_motion: numpy.ndarray
         Displacements of a bar's nodes (rows, from the clamp on) at uniform instants, m; 0 × 0 for other structures.
     scene: str
@@ -79,8 +80,8 @@ class Record(Solved):
     def write(self, output: str | os.PathLike[str]) -> None:
         """Writes the files of ``wavebalance run --output``. Raises OSError.
 
-        Matrices that are no files are kept by ``run(..., output=...)`` alone: the scene that is written here names copies of
-        them that are gone.
+        Only ``run(..., output=...)`` keeps matrices that are no files: the scene written here names copies that no
+        longer exist.
         """
         self._solved_here().write(os.fspath(output))
 
@@ -91,8 +92,8 @@ class Record(Solved):
     def plot(self, ax: Any = None) -> Any:
         """Draws the motion, the curve (unstable parts dashed), the mode or the dots of a diagram with Matplotlib, and returns the axes.
 
-        With ``analysis.outputs`` the motion, the curve and the mode's amplitude are those of the output that leads, otherwise
-        of contacts.
+        With ``analysis.outputs`` the motion, the curve and the mode's amplitude belong to the first output, otherwise
+        to contacts.
         """
         leading, unit = self._leading_output()
         curve = self.sweep or self.backbone

@@ -19,17 +19,17 @@ __all__ = ["Motion", "Problem", "Response", "Stability", "forced_response", "har
 class Problem(_core.Problem):
     """A structure condensed on its contacts in a pair of bases: what responses of many frequencies and laws share.
 
-    Functions that take a structure make one and keep it with the structure for its last pair. Threads may share it; one
-    works with it at a time.
+    Functions of a structure make one and keep it with the structure for its last pair. Threads may share it, one at a
+    time.
 
     Parameters
     ----------
     structure, pair:
-        Of the problem; 63 Fourier functions with 256 points by default.
+        Pair of the problem; 63 Fourier functions with 256 points by default.
     harmonics:
         Complex amplitudes h_m of the load's time function Re sum_m h_m exp(2 pi i m f t); (0, 1) is a cosine.
     threads:
-        Of each condensation of a large structure; 0 for one per core.
+        Threads of each condensation of a large structure; 0 for one per core.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ ProblemLike = Union[Structure, Problem]
 
 
 def as_problem(of: ProblemLike, pair: Pair | None) -> Problem:
-    """The problem, or the one of a structure, which keeps that of its last pair."""
+    """The problem, or the one of a structure, which keeps the problem of its last pair."""
     if isinstance(of, Problem):
         if pair is not None and pair is not of.pair:
             raise ValueError("pair is given, but the problem has one of its own; expected a structure, or no pair")
@@ -107,7 +107,7 @@ class Response(_core.Response):
     residual, iterations, residual_history:
         Relative residual, Newton iterations of all attempts, residuals of the last run.
     strategy: str
-        What found it: "newton", "gap_continuation", ...
+        Strategy that found it: "newton", "gap_continuation", ...
     displacement: numpy.ndarray
         Displacements of the contacts at the N points, C × N, m; a view that cannot be written to.
     contact_force: numpy.ndarray
@@ -117,7 +117,7 @@ class Response(_core.Response):
     time: numpy.ndarray
         The N points, fractions of the period.
     wall_seconds: float
-        Of the condensation and the solution, s.
+        Time of the condensation and the solution, s.
     """
 
     def __init__(self, core: _core.Response, problem: Problem, laws: Any) -> None:
@@ -145,7 +145,7 @@ class Response(_core.Response):
         """Complex amplitudes of the contacts' displacements, C × (count + 1): u = Re sum_m h_m exp(2 pi i m f t).
 
         The modulus of h_m is an amplitude (m), its argument a phase ahead of a cosine; h_0 is the mean. `points` must exceed
-        twice `count`. Those of degrees of freedom are ``harmonics_of(response.structure_motion().displacement, count)``.
+        twice `count`. For degrees of freedom use ``harmonics_of(response.structure_motion().displacement, count)``.
         """
         return harmonics_of(self.motion(points).displacement, count)
 
@@ -199,7 +199,7 @@ def harmonics_of(displacement: npt.ArrayLike, count: int = 5) -> npt.NDArray[np.
 
 
 class Stability:
-    """What becomes of a small disturbance of a periodic response.
+    """Growth of small disturbances of a periodic response.
 
     Attributes
     ----------
@@ -249,23 +249,23 @@ def forced_response(
     laws:
         One law for all contacts, a list with one each, or functions of Python in their places (slow).
     frequency:
-        Of the load, Hz, above 0.
+        Forcing frequency, Hz, above 0.
     pair:
         Trial and weight functions; 63 Fourier functions with 256 points by default.
     guess:
         Another response of the same size, or displacements of the contacts at the points, C × N, m, from which Newton's
         method starts; the motion without contact by default.
     stay_near_guess:
-        Whether only a response near the guess is sought.
+        Whether only a response near the guess is accepted.
     form:
         "automatic", "displacement" or "force": the unknown that is solved for.
     tolerance, max_iterations:
-        Of Newton's method, relative to the linear response.
+        Tolerance of Newton's method, relative to the linear response.
 
     Returns
     -------
     Response
-        Its status says whether it converged.
+        Its status shows whether it converged.
 
     Raises
     ------
@@ -288,7 +288,7 @@ def stability(response: Response, multipliers: int = 4) -> Stability:
     response:
         A response that has converged; for others the status is "no_response".
     multipliers:
-        How many are computed beside the count, a conjugate pair counted once; 0 for none.
+        Number of multipliers computed in addition to the count, a conjugate pair counted once; 0 for none.
 
     Raises
     ------

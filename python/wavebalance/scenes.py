@@ -39,16 +39,16 @@ def run(
     unset:
         Keys that are dropped, as ``"time.trial"``.
     start_from:
-        Results of an earlier run, near whose motion the response is sought.
+        Results of an earlier run, near whose motion the response is computed.
     threads:
-        Harmonics that are condensed side by side, with the same digits; 0: one per core.
+        Harmonics condensed in parallel, with the same digits; 0: one per core.
     copy_inputs:
         Whether `output` gets copies of the files that the scene names, so that it can be moved.
 
     Returns
     -------
     Record
-        Its ``converged`` and ``status`` say how the solution ended.
+        Its ``converged`` and ``status`` are the outcome.
 
     Raises
     ------
@@ -65,15 +65,15 @@ def run(
 
 
 def check(scene: SceneLike, overrides: Overrides = None, *, unset: Iterable[str] = ()) -> str:
-    """What would be solved, how large it is and whether the pair is admissible, as ``wavebalance check`` says.
+    """The problem, its size and whether the pair is admissible, as ``wavebalance check`` prints.
 
-    Arguments and errors are those of :func:`run`.
+    Arguments and errors as for :func:`run`.
     """
     with scene_source(scene, overrides, unset) as source:
         return _core.describe_scene(source)
 
 
 def complete(scene: SceneLike, overrides: Overrides = None, *, unset: Iterable[str] = ()) -> str:
-    """The scene as TOML with every default filled in. Arguments and errors are those of :func:`run`."""
+    """The scene as TOML with every default filled in. Arguments and errors as for :func:`run`."""
     with scene_source(scene, overrides, unset) as source:
         return _core.complete_scene(source)

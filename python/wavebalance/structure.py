@@ -48,7 +48,7 @@ class Structure(_core.Structure):
     unsymmetric:
         Whether C and K may be unsymmetric, as gyroscopic and circulatory ones are.
     free:
-        Whether the structure is free to move and held by its contacts alone.
+        Whether the structure is free to move and held only by its contacts.
     gyroscopic:
         G, n × n and skew-symmetric: the damping is C + Omega G at the speed Omega.
     spin_stiffness:
@@ -61,7 +61,7 @@ class Structure(_core.Structure):
         amount Omega^2 with Omega = 2 pi n f, so that shafts may turn at speeds in the ratio of integers.
     contact_mass:
         "keep", or "redistribute" for contacts without mass, which rigid obstacles need: the structure is replaced by its
-        lowest n - C modes beside contacts that deflect by the flexibility of the others. O(n^3).
+        lowest n - C modes and contacts that deflect by the flexibility of the others. O(n^3).
 
     Attributes
     ----------
@@ -164,7 +164,7 @@ class Structure(_core.Structure):
         laws:
             One law, or one per contact; laws of Python functions have no keys.
         frequency:
-            Of the load, Hz.
+            Forcing frequency, Hz.
         pair:
             Trial and weight functions; 63 Fourier functions with 256 points by default. None with ``Rigid(gap,
             restitution)`` and with rigid, static, moving or damped friction, whose motions have no functions.
@@ -217,7 +217,7 @@ class Structure(_core.Structure):
                 "takes as many directions"
             )
         first = each[0].scene_keys()
-        # No contact and a rigid obstacle are those of all contacts of a scene.
+        # "none" and "rigid" hold for all contacts of a scene.
         kept = {"none": (), "rigid": tuple(key for key in ("gap", "restitution") if key in first)}.get(first["law"])
         pairs = []
         begin = 0
@@ -262,7 +262,7 @@ class Pair(_core.Pair):
     name:
         "trial:weight" of "fourier", "haar", "bspline" and "daubechies6" (any even number), or one name for both.
     functions:
-        Trial functions per degree of freedom; a power of two with wavelets, odd for Fourier functions alone (a mean and
+        Trial functions per degree of freedom; a power of two with wavelets, odd for Fourier functions only (a mean and
         both functions of each harmonic).
     points:
         Uniform points of the period, by default 4 times the functions, and at least 256.

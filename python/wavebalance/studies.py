@@ -23,7 +23,7 @@ _TASKS = 200
 
 
 class Study(Solved):
-    """What came of the runs of a study.
+    """Results of the runs of a study.
 
     Attributes
     ----------
@@ -98,7 +98,7 @@ def study(
         As for :func:`wavebalance.run`. Matrices in memory are refused with an executor of other processes, which could not
         read them; name files.
     parameters:
-        Keys and what they take: a list or an array of values; or an interval, ``{"from": 1e-4, "to": 1e-2}`` with
+        Keys and their values: a list or an array of values; or an interval, ``{"from": 1e-4, "to": 1e-2}`` with
         ``"count"`` in a grid and ``"spacing": "logarithmic"`` if ratios are to be equal.
     sampling, samples, seed:
         "grid" (every combination), "list" (the first values of all, then the second ones), or "sobol" and
@@ -110,7 +110,7 @@ def study(
     output:
         A folder for the files and the journal of ``wavebalance study --output``. A study that was begun there goes on.
     threads:
-        That solve runs side by side; 0: one per core. Without effect with an executor.
+        Threads that solve runs in parallel; 0: one per core. Without effect with an executor.
     executor:
         A :class:`concurrent.futures.Executor` that solves the runs, such as one of processes, of Dask
         (``client.get_executor()``) or of mpi4py. This package must be importable where it runs.

@@ -50,12 +50,12 @@ class Sweep(_core.Curve):
         "branch"), frequency, amplitude, bracket, multiplier, max_displacement, located.
     turning_points: list[dict]
         Every point at which the curve turns: frequency, amplitude, max_displacement, and whether a sample of a contact
-        grazes there. A jump of the structure is at one of them. Some may be of the samples alone, and no folds.
+        grazes there. The structure jumps at one of them. Some may belong only to the samples and be no folds.
     warnings: list[str]
-        What the numbers do not show: a curve that ended early, turns that are no folds in `special_points` or the
-        other way round, stability that is not known, motions that are all unstable.
+        Facts that the numbers do not show: a curve that ended early, turns that are no folds in `special_points` or
+        the other way round, stability that is not known, motions that are all unstable.
     wall_seconds: float
-        Of the curve and its stability, s.
+        Time of the curve and its stability, s.
     """
 
     def __init__(self, core: _core.Curve, problem: Problem, laws: Any) -> None:
@@ -264,7 +264,7 @@ def amplitude_sweep(
 ) -> Sweep:
     """The curve of periodic responses over a factor on the load (but its static part) at one frequency.
 
-    Parameters and errors are those of :func:`frequency_sweep`; the amplitudes and steps are factors on the load.
+    Parameters and errors as for :func:`frequency_sweep`; the amplitudes and steps are factors on the load.
     """
     steps = _steps(first_step, largest_step, max_points, output_points, stability, form)
     hertz = as_number(frequency, "frequency", "one number in Hz")

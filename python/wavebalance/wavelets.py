@@ -39,7 +39,8 @@ def sobolev_exponent(basis: str, functions: int = 4) -> float:
 
 
 def filter(basis: str) -> Numbers:
-    """The filter p of the refinement equation phi(x) = sum_l p_l phi(2x - l), which sums to 2; of "bspline" that of B."""
+    """The filter p of the refinement equation phi(x) = sum_l p_l phi(2x - l), which sums to 2; for "bspline" the
+    filter of B."""
     return _core.wavelet_filter(basis)
 
 

@@ -45,7 +45,7 @@ def test_without_a_motion_nothing_is_said_to_follow(told):
 def test_words_of_modes_are_explained_where_they_stand(told):
     summary, text = told(ROD)
     assert summary["points_tongue"] > 0
-    assert lacking(text, "A tongue is a segment of the branch on an internal resonance",
+    assert lacking(text, "Points with the status tongue are on an internal resonance",
                    "exact motions, is at most ") == []
 
 

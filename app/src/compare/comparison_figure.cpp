@@ -56,7 +56,14 @@ void mark_reference(Panel& panel, const Comparison& comparison) {
   for (const SolvePoint& point : comparison.points)
     if (point.converged) least = std::min(least, point.error);
   const double own = comparison.reference.error_by(comparison.measure);
-  if (least < 10.0 * own) panel.mark_y(own);
+  if (least >= 10.0 * own) return;
+  panel.mark_y(own);
+  double drawn = std::numeric_limits<double>::infinity();
+  for (const Series& series : panel.series)
+    for (const double error : series.y)
+      if (error > 0.0) drawn = std::min(drawn, error);
+  if (own > 0.0 && own < drawn)
+    panel.y.lower = std::pow(10.0, std::floor(std::log10(own)));  // else below the axis
 }
 
 }  // namespace

@@ -89,8 +89,8 @@ void add_envelope(Figure& figure, const Diagram& diagram) {
   const Scale scale = axis_scale(reach);
   Panel& panel = figure.add_panel("Largest and least displacement of " + plain(place.name),
                                   diagram.axis.label(), "Displacement (" + scale.prefix + place.unit + ")");
-  Series repeats = dots("repeats", Colour::black), turns = dots("quasi-periodic", Colour::green),
-         others = dots("neither", Colour::vermillion);
+  Series repeats = dots("periodic", Colour::black), turns = dots("quasi-periodic", Colour::green),
+         others = dots("other", Colour::vermillion);
   for (const DiagramValue& one : diagram.values) {
     if (!one.failure.empty()) continue;
     Series& series = one.period > 0 ? repeats : one.is_quasi_periodic() ? turns : others;

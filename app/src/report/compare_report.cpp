@@ -29,13 +29,22 @@ std::string pair_of(const Table& table, std::size_t row) {
   return trial.empty() ? "" : label_of({trial, weight});
 }
 
+/// Times and peaks with units; a missing value is empty.
+Cell shown(const std::string& column, const Cell& cell) {
+  const auto* value = std::get_if<double>(&cell);
+  const bool is_time = column.ends_with("seconds");
+  if (value == nullptr || (!is_time && column != "max_displacement_m")) return cell;
+  return std::isfinite(*value) ? quantity(*value, is_time ? "s" : "m", is_time ? 3 : 4) : std::string();
+}
+
 /// The table with a column that names the pair of each row, which needs less space than two.
 Table with_pairs(const Table& table) {
   std::vector<std::string> columns = table.columns();
   columns.push_back("pair");
   Table named(columns);
   for (std::size_t i = 0; i < table.rows(); ++i) {
-    std::vector<Cell> row = table.row(i);
+    std::vector<Cell> row;
+    for (const std::string& column : table.columns()) row.push_back(shown(column, table.at(i, column)));
     row.emplace_back(pair_of(table, i));
     named.append_row(std::move(row));
   }
@@ -63,11 +72,11 @@ std::string recommendations(const ComparisonRecord& record, const Summary& summa
       {"pair", "pair"},
       {"functions", "functions"},
       {"quadrature_points", "points"},
-      {"seconds", "time (s)"},
+      {"seconds", "time"},
       {"displacement_error", "error of the displacement"},
       {"force_error", "error of the force"},
       {"fourier_time_ratio", "time of Fourier:Fourier relative to it"},
-      {"phases_seconds", "time of the exact solution, where less (s)"}};
+      {"phases_seconds", "time of the exact solution, if less"}};
   return html + "<h3>Comparison</h3>\n" + columns_html(with_pairs(*table), columns);
 }
 
@@ -105,9 +114,9 @@ std::string curves(const ComparisonRecord& record, const Summary& summary) {
   if (table_of(summary, "curves") == nullptr) return "";
   return columns_html(with_pairs(record.table), {{"pair", "pair"},
                                                  {"functions", "functions"},
-                                                 {"seconds", "time (s)"},
+                                                 {"seconds", "time"},
                                                  {"curve_points", "points of the curve"},
-                                                 {"max_displacement_m", "peak (m)"},
+                                                 {"max_displacement_m", "peak"},
                                                  {record.peak_column, "at (" + record.peak_unit + ")"},
                                                  {"turning_points", "turns"},
                                                  {"distance_from_finest", "distance from the finest"},

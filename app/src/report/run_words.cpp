@@ -315,7 +315,7 @@ void append_mode(std::vector<std::string>& sentences, const Summary& summary) {
                                   with_unit(summary, quantities::linear_frequency)));
   if (number_in(summary, quantities::points_tongue) > 0.0)
     sentences.emplace_back(
-        "A tongue is a segment of the branch on an internal resonance, where a second mode responds.");
+        "Points with the status tongue are on an internal resonance, where a second mode responds.");
   if (std::isfinite(number_in(summary, quantities::virial_residual)))
     sentences.push_back(fmt::format(
         "The virial residual, the relative error of an energy identity of exact motions, is at most {}.",

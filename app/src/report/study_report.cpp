@@ -7,11 +7,13 @@
 
 #include "files/number_text.hpp"
 #include "report/page_parts.hpp"
+#include "results/quantities.hpp"
 #include "wavebalance/app/files/npz.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/app/page/html.hpp"
+#include "wavebalance/app/scene/output_words.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -80,6 +82,20 @@ std::string failures_html(const Study& study, const StudyRecord& record) {
          code_html(command_of_row(study, record.table, failures.front()));
 }
 
+/// A value of a column with the unit of its quantity: "21.63 mm".
+std::string value_text(const std::string& column, double value) {
+  if (const Quantity* known = quantities::find_in_words(column))
+    return quantity(value, std::string(known->unit));
+  if (const OutputUnit* unit = unit_at_end(column))
+    return quantity(value, unit->name == "um" ? "µm" : std::string(unit->name));
+  return column.ends_with("_seconds") ? quantity(value, "s") : short_number(value);
+}
+
+std::string words_of(const std::string& column) {
+  const Quantity* known = quantities::find_in_words(column);
+  return known == nullptr ? column : std::string(known->words);
+}
+
 /// The runs with the largest and the least value of the quantity in the pictures, and the command for the
 /// first of them.
 std::string extremes_html(const Study& study, const StudyRecord& record) {
@@ -94,13 +110,13 @@ std::string extremes_html(const Study& study, const StudyRecord& record) {
   }
   if (!largest || *largest == *least) return "";
   const auto run = [&](std::size_t i) {
-    return fmt::format("{} in run {}", short_number(values[i]), cell_text(record.table.at(i, "run")));
+    return fmt::format("{} in run {}", value_text(quantity, values[i]), cell_text(record.table.at(i, "run")));
   };
   return "<p>" +
-         escaped(
-             fmt::format("The largest {} is {}, the least {}. study.csv has a row for each run. This command "
-                         "solves only run {}:",
-                         quantity, run(*largest), run(*least), cell_text(record.table.at(*largest, "run")))) +
+         escaped(fmt::format(
+             "The largest {} is {}, the least {}. study.csv has a row for each run. This command "
+             "solves only run {}:",
+             words_of(quantity), run(*largest), run(*least), cell_text(record.table.at(*largest, "run")))) +
          "</p>\n" + code_html(command_of_row(study, record.table, *largest));
 }
 
@@ -118,7 +134,7 @@ bool is_of_the_solver(const std::string& quantity) {
   return names.contains(quantity);
 }
 
-/// Numbers with four digits.
+/// The table of quantiles with units.
 std::string quantiles_html(const Study& study, const Summary& summary) {
   const Table* table = table_of(summary, "quantiles");
   if (table == nullptr) return "";
@@ -131,7 +147,7 @@ std::string quantiles_html(const Study& study, const Summary& summary) {
     rows.emplace_back();
     for (const Cell& cell : table->row(i)) {
       const auto* number = std::get_if<double>(&cell);
-      rows.back().push_back(number == nullptr ? cell_text(cell) : short_number(*number));
+      rows.back().push_back(number == nullptr ? cell_text(cell) : value_text(name, *number));
     }
   }
   return "<p>Quantiles over the runs that converged: 5 % of them do not exceed q05. summary.json "

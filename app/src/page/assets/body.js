@@ -2,7 +2,7 @@
 "use strict";
 (() => {
   const element = wavebalance.element;
-  const period = 4000;  // milliseconds that a period takes when played
+  const period = 4000;  // milliseconds per period when played
   const resting = 0.4;  // of the colours, for lines at rest: white ones cannot be seen
 
   // White to dark blue, as the pictures have it; `depth` in 0..1.
@@ -12,7 +12,7 @@
     return ends[low].map((value, i) => value + (place - low) * (ends[low + 1][i] - value));
   }
 
-  // What stays: the edges of the surface at rest, and its beams.
+  // Fixed parts: the edges of the surface at rest, and its beams.
   function outline(geometry, data) {
     const edges = Array.from(new THREE.EdgesGeometry(geometry, 50).attributes.position.array);
     const rest = geometry.attributes.position.array;
@@ -64,7 +64,7 @@
       this.camera.updateProjectionMatrix();
     }
 
-    // `largest` is the displacement that takes the last colour, one for all motions that are compared.
+    // `largest` is the displacement with the last colour, the same for all compared motions.
     load(data, largest) {
       if (this.mesh) this.scene.remove(this.mesh, this.outline);
       this.data = data;
@@ -118,6 +118,7 @@
   function build(box, names, renderer) {
     const motions = names.map((name) => wavebalance.bodies[name]);
     const largest = Math.max(...motions.map((one) => one.largest));
+    const unit = wavebalance.unitOf(largest);
     const size = () => { const width = Math.max(220, box.clientWidth); return [width, Math.min(520, 0.75 * width)]; };
     const body = new Body(renderer, ...size());
     const list = element("select", { "aria-label": "Motion" }, ...motions.map((one, i) => element("option", { value: i }, one.label)));
@@ -134,7 +135,8 @@
     list.addEventListener("change", () => { body.load(motions[list.value], largest); show(Number(slider.value)); });
     box.replaceChildren(wavebalance.heading(box, "The body over a period"), element("div", { class: "tools" }, list, play.button, slider, instant), body.canvas,
       element("p", { class: "quiet" }, `Displacements ${(motions[0].times || 1) === 1 ? "as they are" :
-        `drawn ${motions[0].times} times as large`}; ${motions[0].triangles.length > 0 ? "white" : "blue"} at rest, dark blue at ${(1e3 * largest).toPrecision(3)} mm in all ` +
+        `drawn ${motions[0].times} times as large`}; ${motions[0].triangles.length > 0 ? "white" : "blue"} at rest, ` +
+        `dark blue at ${wavebalance.number(unit.factor * largest, 3)} ${unit.name} in all ` +
         "motions. Thin lines: the body at rest. Drag to turn it."));
     body.load(motions[0], largest);
     new ResizeObserver(() => { body.resize(...size()); body.render(); }).observe(box);

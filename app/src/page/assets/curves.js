@@ -1,11 +1,11 @@
-// Draws the curves of a figure in place of its picture: they zoom, show values under the pointer, and can be hidden.
+// Draws the curves of a figure instead of its picture: they zoom, show values under the pointer, and can be hidden.
 // Data come from figure_script() of app/plot; d3 draws scales, axes and zooms.
 "use strict";
 (() => {
   const margin = { top: 8, right: 24, bottom: 48, left: 66 };
   const reach = 40;  // pixels within which a curve answers to the pointer
   const element = wavebalance.element;
-  // Those of the pictures: five filled ones, then three open ones.
+  // Symbols as in the pictures: five filled ones, then three open ones.
   const downwards = { draw(context, size) {
     const y = -Math.sqrt(size / (Math.sqrt(3) * 3));
     context.moveTo(0, -2 * y);
@@ -15,13 +15,12 @@
   } };
   const symbols = () => [d3.symbolCircle, d3.symbolSquare, d3.symbolTriangle, d3.symbolDiamond, downwards,
                          d3.symbolCircle, d3.symbolSquare, d3.symbolTriangle];
-  const number = (value) => (value === null ? "none" : d3.format(".5~g")(value).replace("-", "\u2212"));
+  const number = (value) => wavebalance.number(value, 5);
 
   // A power of ten as such; nothing for other values.
   const power = (value) => {
     const exponent = Math.round(Math.log10(value));
-    if (Math.abs(value / 10 ** exponent - 1) > 1e-9) return "";
-    return "10" + [...String(exponent)].map((c) => (c === "-" ? "\u207B" : "\u2070\u00B9\u00B2\u00B3\u2074\u2075\u2076\u2077\u2078\u2079"[c])).join("");
+    return Math.abs(value / 10 ** exponent - 1) > 1e-9 ? "" : wavebalance.power(exponent);
   };
 
   // A text given for a tick, in which powers of ten are marked as gnuplot has them; a tick holds no parts.
@@ -108,7 +107,7 @@
 
   const finite = (scale, value) => value !== null && Number.isFinite(scale(value));
 
-  // Of a map its cells tell their values, and not the marks upon them.
+  // In a map the cells show their values, not the marks on them.
   const telling = (list) => (list.some((series) => series.cells) ? list.filter((series) => series.cells) : list);
 
   function scaleOf(axis, values, range, round) {
@@ -191,7 +190,7 @@
       event.preventDefault();
     }
 
-    // Arrow keys to the sides tell one point of a curve after another, those up and down another curve.
+    // Left and right keys show the points of a curve one after another, up and down keys change the curve.
     step(key) {
       const curves = telling(this.shown()).filter((series) => series.y.some((value, i) => finite(this.x, series.x[i]) && finite(this.y, value)));
       if (curves.length === 0) return;
@@ -230,7 +229,7 @@
       this.leave();
     }
 
-    // Numbers that would stand on the one before are left out.
+    // Numbers that would overlap the previous one are left out.
     spread(axis) {
       let end = -Infinity;
       axis.selectAll(".tick text").attr("visibility", null).each(function () {
@@ -343,14 +342,14 @@
     }
   }
 
-  // One entry of the legend stands for the curves of that name and look in all panels.
+  // One entry of the legend represents the curves of that name and look in all panels.
   const key = (series) => [series.label, series.colour, series.dash, series.style].join("|");
 
   const hasPoint = (series) => series.x.some((x, i) => x !== null && series.y[i] !== null);
   const areaOpacity = (data, series) => data.panels.find((panel) => panel.series.includes(series)).rectangles
     .find((one) => one.colour === series.colour)?.opacity ?? 1;
 
-  // What the colours of a map mean.
+  // Meaning of the colours of a map.
   const colourBar = ({ title, range, colours }) => element("span", { class: "range" }, ...html(title), ` ${number(range[0])} `,
     element("span", { style: `background: linear-gradient(90deg, ${colours})` }), ` ${number(range[1])}`);
 
@@ -470,7 +469,7 @@
       width = window.innerWidth;
       figures.forEach((figure) => figure.redrawCurves());
     });
-    // On narrow screens the panels of the curves stand below each other, which a picture cannot.
+    // On narrow screens the panels of the curves are below each other, unlike in a picture.
     if (window.matchMedia("(max-width: 700px)").matches)
       wavebalance.whenNear("figure[data-curves]", (figure) => figure.querySelector(".tools button").click());
   });

@@ -4,8 +4,8 @@
 (() => {
   const element = wavebalance.element;
   const space = "http://www.w3.org/2000/svg";
-  const period = 5000;  // milliseconds that a period takes when played
-  const number = (value, digits = 3) => Number(value.toPrecision(digits)).toString().replace("-", "\u2212");
+  const period = 5000;  // milliseconds per period when played
+  const { number } = wavebalance;
 
   function svg(tag, attributes, parent) {
     const made = document.createElementNS(space, tag);
@@ -25,13 +25,6 @@
     return `M${tip},${y - 3}h${head - length}v-4l${-head},7l${head},7v-4h${length - head}z`;
   }
 
-  // The unit in which a length in metres is a readable number.
-  function unitOf(length) {
-    const units = [["m", 1], ["mm", 1e-3], ["\u00B5m", 1e-6], ["nm", 1e-9], ["pm", 1e-12]];
-    const [name, size] = units.find(([, size]) => length >= size) ?? units[1];
-    return { name, factor: 1 / size };
-  }
-
   // Round numbers between two, at most five.
   function roundValues(low, high) {
     const least = (high - low) / 4, decade = 10 ** Math.floor(Math.log10(least));
@@ -41,7 +34,7 @@
     return values;
   }
 
-  // The order in which instants are shown: contact, about t = 0, stands in the middle of a diagram.
+  // The order in which instants are shown: contact, around t = 0, is in the middle of a diagram.
   function ordered(times) {
     const shown = times.map((time, index) => ({ index, time: time >= 0.5 ? time - 1 : time }));
     return shown.sort((a, b) => a.time - b.time);
@@ -104,7 +97,7 @@
     }
   }
 
-  // The bar: displacements are enlarged so that the gap can be told from the length.
+  // The bar: displacements are enlarged to make the gap visible.
   class Bar {
     constructor(data) {
       this.data = data;
@@ -165,7 +158,7 @@
       (place) => choose(Math.floor(place * data.order.length)));
     const set = (next) => { play.pause(); choose(next); };
     const bar = new Bar(data);
-    const unit = unitOf(Math.max(...[data.reference, ...data.pairs].flatMap((motion) => motion.tip.map(Math.abs))));
+    const unit = wavebalance.unitOf(Math.max(...[data.reference, ...data.pairs].flatMap((motion) => motion.tip.map(Math.abs))));
     const diagrams = [
       new Diagram(data, `Displacement of the tip (${unit.name})`, (motion) => motion.tip, unit.factor, set),
       new Diagram(data, "Contact force over the amplitude of the load", (motion) => motion.force, 1, set)];
@@ -174,7 +167,8 @@
       slider.value = position;
       bar.show(index, pair);
       diagrams.forEach((diagram) => diagram.show(position));
-      values.textContent = `t = ${number(time)} T, u = ${number(unit.factor * pair.tip[index], 4)} ${unit.name}, force ${number(pair.force[index])}`;
+      values.textContent = `t = ${number(time, 3)} T, u = ${number(unit.factor * pair.tip[index])} ${unit.name}, `
+        + `force ${number(pair.force[index], 3)}`;
     };
     const draw = () => {
       bar.draw();
@@ -184,7 +178,7 @@
     slider.addEventListener("input", () => set(Number(slider.value)));
     list.addEventListener("change", () => { pair = data.pairs[list.value] ?? data.reference; draw(); });
     box.replaceChildren(
-      wavebalance.heading(box, `The bar over a period, ${number(data.frequency, 4)} Hz`),
+      wavebalance.heading(box, `The bar over a period, ${number(data.frequency)} Hz`),
       element("div", { class: "tools" }, list, play.button, slider, values), element("div", {}, bar.svg),
       element("div", { class: "pair" }, ...diagrams.map((diagram) => element("div", {}, diagram.svg))),
       element("p", { class: "quiet" }, (data.pairs.length ? `Grey dashed: ${data.reference.label}. ` : "") + "Displacements are enlarged; the arrow is the contact force. Drag " +

@@ -23,6 +23,29 @@ wavebalance.element = (tag, attributes = {}, ...children) => {
   return made;
 };
 
+// A power of ten as text with raised digits.
+wavebalance.power = (exponent) => {
+  const raised = "\u2070\u00B9\u00B2\u00B3\u2074\u2075\u2076\u2077\u2078\u2079";
+  return "10" + [...String(exponent)].map((c) => (c === "-" ? "\u207B" : raised[c])).join("");
+};
+
+// A number for readers in the format of short_number() (app/files): with powers of ten below 1e-3 and from 1e5 on.
+wavebalance.number = (value, digits = 4) => {
+  if (value === null || !Number.isFinite(value)) return "not known";
+  const [mantissa, exponent] = value.toExponential(digits - 1).split("e").map(Number);
+  const plain = value === 0 || (exponent >= -3 && exponent < Math.max(digits, 5));
+  const text = plain ? String(Number(value.toPrecision(digits)))
+    : `${mantissa}\u00B7${wavebalance.power(exponent)}`.replace(/^(-?)1\u00B7/, "$1");
+  return text.replace("-", "\u2212");
+};
+
+// The unit of lengths up to `largest` metres, and the factor on them.
+wavebalance.unitOf = (largest) => {
+  const units = [["m", 1], ["mm", 1e3], ["\u00B5m", 1e6], ["nm", 1e9], ["pm", 1e12]];
+  const [name, factor] = units.find(([, size]) => largest * size >= 1) ?? units[1];
+  return { name, factor };
+};
+
 // A heading for what a script draws in `box`, one level below the heading before it and at most of the fourth.
 wavebalance.heading = (box, text) => {
   const before = [...document.querySelectorAll("h1, h2, h3, h4")]
@@ -30,8 +53,8 @@ wavebalance.heading = (box, text) => {
   return wavebalance.element(`h${Math.min(4, Number(before?.tagName[1] ?? 0) + 1)}`, {}, text);
 };
 
-// A button that plays periods of so many milliseconds: in each frame `show` gets the place in the period, 0 <= place < 1,
-// from `place()` on. The clock is that of the frames, whose first may lie before the click.
+// A button that plays periods of so many milliseconds: in each frame `show` gets the place in the period, 0 <= place <
+// 1, from `place()` on. The clock is that of the frames, whose first may be before the click.
 wavebalance.player = (period, place, show) => {
   const button = wavebalance.element("button", { type: "button", "aria-pressed": "false" }, "Play");
   let frame = null, started = null;
@@ -68,7 +91,7 @@ wavebalance.whenNear = (selector, start) => {
   check();
 };
 
-// What is folded is printed too, but for what repeats other parts of the page or does not decide.
+// Folded parts are printed too, except those that repeat other parts of the page or do not decide.
 {
   let opened = [];
   window.addEventListener("beforeprint", () => {

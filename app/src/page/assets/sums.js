@@ -1,12 +1,12 @@
-// Curves under each way to form sums over the period: a way is a few choices, and curves and verdicts of the statements
-// follow them. Data are left beside the figure, whose colours and letters are taken.
+// Curves under each way to form sums over the period: a way is a few choices, and curves and verdicts of the
+// statements follow them. Data are in the folder of the figure, whose colours and letters are used.
 "use strict";
 (() => {
   const element = wavebalance.element;
   const signs = { agrees: "\u2713", differs: "\u2717", "holds in part": "\u00BD", ties: "\u2248" };
   const margin = { top: 8, right: 10, bottom: 36, left: 52 };
   const height = 190;
-  const percent = (share) => (share === null ? "no solution found" : `error ${Number((100 * share).toPrecision(3))} %`);
+  const percent = (share) => (share === null ? "no solution found" : `error ${wavebalance.number(100 * share, 3)} %`);
 
   // The pairs in the order of the panels of the figure, with its colours.
   function ordered(data, figure) {
