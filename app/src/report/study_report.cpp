@@ -114,9 +114,8 @@ std::string extremes_html(const Study& study, const StudyRecord& record) {
   };
   return "<p>" +
          escaped(fmt::format(
-             "The largest {} is {}, the least {}. study.csv has a row for each run. This command "
-             "solves only run {}:",
-             words_of(quantity), run(*largest), run(*least), cell_text(record.table.at(*largest, "run")))) +
+             "Range of the {}: {} to {}. study.csv has a row for each run. This command solves only run {}:",
+             words_of(quantity), run(*least), run(*largest), cell_text(record.table.at(*largest, "run")))) +
          "</p>\n" + code_html(command_of_row(study, record.table, *largest));
 }
 
