@@ -194,7 +194,7 @@ void warn(Record& record, fmt::format_string<Values...> text, Values&&... values
 
 /// The first entries of every summary, of a record whose status is known.
 void begin_summary(Record& record, double residual, int iterations, int unknowns, double solve_seconds);
-/// Puts the time of everything before that of the solution.
+/// Puts the total time before the time of the solution.
 void insert_wall_seconds(Summary& summary, double seconds);
 
 /// Pair of bases, its formulation and its sizes.

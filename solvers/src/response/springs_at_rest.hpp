@@ -7,8 +7,8 @@
 
 namespace wavebalance::solvers::detail {
 
-/// A problem in which contacts that are closed at rest are springs of the structure, with the slopes that
-/// they have there. Its laws act beside these springs; its motions are those of the problem as it was.
+/// A problem in which contacts that are closed at rest are springs of the structure, with their slopes at
+/// rest. Its laws act in addition to these springs; its motions equal the original problem's.
 struct SpringsAtRest {
   CondensedProblem problem;
   ContactLaws laws;
