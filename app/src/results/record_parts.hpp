@@ -230,8 +230,8 @@ void append_start(Record& record, const StartMotion& start, bool found, double d
 /// All warnings of the record in its summary, also those that came after the summary's own.
 void set_warnings(Record& record);
 
-/// What is written and drawn of a free motion with its contacts in `response` and the structure's motion at
-/// so many instants; `shown` is the frequency in the title (Hz).
+/// Files and pictures of a free motion with its contacts in `response` and the structure's motion at so
+/// many instants; `shown` is the frequency in the title (Hz).
 void append_free_motion(Record& record, const Scene& scene, const StructureModel& model, Response& response,
                         double frequency, double shown, const std::function<solvers::Motion(int)>& structure);
 

@@ -49,7 +49,7 @@ constexpr int largest_side = 100'000'000;
 /// Opens a regular file of at most largest_matrix_file bytes. Throws MatrixFileError.
 std::ifstream open_matrix_file(const std::filesystem::path& file);
 
-/// What `read(input, name)` makes of a file.
+/// Result of `read(input, name)` for a file.
 template <class Read>
 auto from_file(const std::filesystem::path& file, Read read) {
   std::ifstream input = open_matrix_file(file);

@@ -12,8 +12,8 @@ from paper_results import SCENES, relative_rms_error, rms, run_program
 
 JONES = SCENES / "jones_legrand_2014"
 DISPLACEMENTS = ("fig06_tip_displacement_case1", "fig07_tip_displacement_case2")
-#: Of a program that is independent of this project, with three digits: pair, case, functions and the relative rms error of
-#: the tip [JL14, Fig. 11].
+# : From a program that is independent of this project, with three digits: pair, case, functions and the relative rms
+# error of : the tip [JL14, Fig. 11].
 TIP_ERRORS = [("bspline_bspline", 1, 8, 2.83e-2), ("bspline_bspline", 1, 16, 1.71e-2), ("bspline_bspline", 1, 32, 2.13e-2),
               ("bspline_bspline", 1, 64, 1.69e-3), ("bspline_bspline", 1, 128, 3.88e-4),
               ("daubechies6_daubechies6", 1, 8, 4.48e-2), ("daubechies6_daubechies6", 1, 16, 5.13e-1),

@@ -207,7 +207,7 @@ struct StudyOutcome {
 /// Solves the runs `todo` and hands each row to `sink` once. Work is distributed as it is finished, so that
 /// all workers end within the time of one run. The observer is called by this thread; once it returns
 /// false, runs under way are dropped. Rows do not depend on the number of workers, but for their seconds.
-/// What `sink` throws ends the study. With a messenger this is the part of process 0.
+/// An exception of `sink` ends the study. With a messenger this is the part of process 0.
 StudyOutcome run_study(const Study& study, const StudyRuns& runs, const std::vector<std::int64_t>& todo,
                        const StudyOptions& options, const RowSink& sink,
                        const solvers::Observer& observer = {});
