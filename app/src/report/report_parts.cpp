@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-
 #include "plot/plot_parts.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
