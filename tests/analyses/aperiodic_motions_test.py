@@ -236,3 +236,69 @@ def test_friction_beside_a_stop_has_the_work_and_the_wear_of_an_ensemble(run, ma
     assert found["friction_work_J"] == pytest.approx(work, abs=found["friction_work_error_J"] + work_error)
     assert found["wear_m3"] == pytest.approx(1e-3 * 0.2 * found["friction_work_J"] / 0.02, rel=1e-5)
     assert found["wear_error_m3"] == pytest.approx(1e-2 * found["friction_work_error_J"], rel=1e-2)
+
+
+def tube(matrix, recorded=64):
+    """A tube by two modes along y and two along z, which lift and drag press against two baffles, where it rubs along y."""
+    matrix("m.mtx", np.eye(4))
+    matrix("c.mtx", np.diag([0.72, 1.99, 0.72, 1.99]))
+    matrix("k.mtx", np.diag([1300.0, 9870.0, 1300.0, 9870.0]))
+    contacts, dofs = "", "dofs = [1, 2, 3, 4]\n"
+    for first, second in ((0.424, 0.709), (0.78, 0.0)):
+        y, z = f"[{first}, {second}, 0.0, 0.0]\n", f"[0.0, 0.0, {first}, {second}]\n"
+        contacts += f"[[contact.pairs]]\n{dofs}coefficients = {z}tangent = [1, 2, 3, 4]\ntangent_coefficients = {y}"
+        contacts += f'[[contact.pairs]]\n{dofs}coefficients = {y}side = "both"\nlaw = "linear"\nstiffness = 1e6\ngap = 2e-4\n'
+    return f"""
+[structure]
+type = "matrices"
+mass = "m.mtx"
+stiffness = "k.mtx"
+damping = "c.mtx"
+[contact]
+law = "coulomb"
+friction = 0.3
+normal_stiffness = 1e6
+tangential_stiffness = 2e4
+normal_gap = 2e-4
+wear_coefficient = 2e-14
+{contacts}[forcing]
+frequency = 20.0
+[[forcing.terms]]
+harmonic = 0
+dofs = [3]
+amplitude = 4.9
+[[forcing.terms]]
+{dofs}coefficients = [3.4, 3.0, 0.68, 0.6]
+amplitude = 1.0
+[time]
+trial = "fourier"
+weight = "fourier"
+functions = 31
+quadrature_points = 256
+[analysis]
+type = "forced_response"
+recorded_periods = {recorded}
+"""
+
+
+def test_a_response_that_does_not_exist_is_the_aperiodic_motion_with_its_statistics(run, matrix):
+    record = run(tube(matrix))
+    found = record.summary
+    assert record.code == 3
+    assert (found["status"], found["motion_kind"], found["converged"]) == ("aperiodic", "chaotic", False)
+    assert (found["analysis"], found["solved_by"], found["recorded_periods"]) == ("forced_response", "time_stepping", 64)
+    assert 0.0 < found["wear_error_m3"] < found["wear_m3"] and found["friction_work_J"] > 0.0
+    for name in ("statistics.csv", "section.csv", "spectrum.csv", "response.svg"):
+        assert (record.folder / name).exists(), name
+    assert "more analysis.recorded_periods" in record.errors
+
+
+def test_a_response_without_a_record_ends_as_before(run, matrix):
+    found = run(tube(matrix, recorded=0)).summary
+    assert found["status"] != "aperiodic" and "statistics" not in found
+
+
+def test_an_unstable_response_names_the_analysis_of_the_motion_that_occurs(run, hammer):
+    found = run(STRUCTURE + '[analysis]\ntype = "forced_response"\n', set=["forcing.terms[1].amplitude=23.0"]).summary
+    assert found["unstable_multipliers"] == 1
+    assert any("time_stepping" in one and "max_periods = 200" in one for one in found["warnings"])

@@ -125,7 +125,10 @@ void solve_by_collocation(const Scene& scene, const StructureModel& model, const
   result.strategy = found.strategy;
   result.start_functions = found.start_functions;
   result.residual = solvers::missing;
-  if (!found.motion) return;
+  if (!found.motion) {
+    result.settled = found.settled;
+    return;
+  }
   if (found.load_periods > 1) problem = problem.over_periods(found.load_periods);
   copy_phases(problem, *found.motion, found.load_periods, scene, model, options, result);
   if (!result.moves) result.settled = found.settled;

@@ -13,7 +13,7 @@ const Move integrate = always("analysis.type = \"time_stepping\"", {.analysis = 
 const Move recorded = always(
     "analysis.type = \"time_stepping\" with analysis.max_periods = 200, which has statistics of what does "
     "not repeat",
-    {.analysis = "time_stepping", .set = {"analysis.max_periods=200"}});
+    statistics_in_time());
 const Move diagram = always(
     "analysis.type = \"bifurcation_diagram\", which integrates over the interval, with or without periodic "
     "motions",
@@ -60,6 +60,7 @@ const Remedies& of_responses() {
       {"too_many_impacts", {stiff_law, more_damping, less_rebound}},
       {"grazing", {other_frequency, other_gap}},
       {"not_settled", {recorded, all_motions, more_damping, other_frequency}},
+      {"aperiodic", {longer_record, all_motions, more_damping}},
       {"not_converged", {sizes_in_place, more_damping}}};
   return all;
 }
@@ -69,10 +70,10 @@ const Remedies& of_sweeps() {
                             {"no_start", {other_start, diagram}},
                             {"closed", {other_start, reversed, more_points}},
                             {"ended", {other_start, reversed}},
-                            {"lost", {damping_depth, exact_curve, smaller_step, more_points, odd_functions}},
-                            {"missed_part", {damping_depth, exact_curve, smaller_step, more_points}},
+                            {"lost", {exact_curve, damping_depth, smaller_step, more_points, odd_functions}},
+                            {"missed_part", {exact_curve, damping_depth, smaller_step, more_points}},
                             {"unbounded", {more_damping, dropped_nyquist}},
-                            {"point_limit", {more_curve_points, damping_depth, exact_curve}}};
+                            {"point_limit", {more_curve_points, exact_curve, damping_depth}}};
   return all;
 }
 

@@ -25,7 +25,6 @@ void check_sweep(const Document& document, const Scene& scene) {
 void check_records(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   const bool diagram = analysis.type == AnalysisType::bifurcation_diagram;
-  if (!integrates_in_time(analysis.type)) return;
   const int recorded = analysis.recorded_periods;
   if (!diagram && recorded > 0 && recorded < least_recorded_periods)
     fail_rule(document, {"analysis.recorded_periods"},

@@ -90,6 +90,10 @@ SceneChange as_response(const Scene& scene) {
   return change;
 }
 
+SceneChange statistics_in_time() {
+  return {.analysis = "time_stepping", .set = {"analysis.max_periods=200"}};
+}
+
 std::optional<Scene> changed_scene(const Scene& scene, const SceneChange& change) {
   constexpr int most_left_over = 100;
   const std::string text = write_scene(scene) + "\n" + change.added + "\n";

@@ -46,23 +46,51 @@ Record curve_record(const Scene& scene, const StructureModel& model, const Analy
   return record;
 }
 
-Record forced_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
-  const StartMotion& start = how.start;
+namespace {
+
+Response solved_response(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
   ResponseOptions options = response_options(scene, how.observer);
   options.stability = scene.analysis.stability;
   options.phases = scene.analysis.phases;
   options.exact_instead = scene.analysis.phases;
-  if (solves_by_impacts(scene)) return response_record(scene, model, impacts_response(scene, model, options));
-  if (solves_exactly(scene)) return response_record(scene, model, exact_response(scene, model, options));
-  if (!start.contacts.empty()) {
-    StartSamples samples = start_samples(start, scene);
+  if (solves_by_impacts(scene)) return impacts_response(scene, model, options);
+  if (solves_exactly(scene)) return exact_response(scene, model, options);
+  if (!how.start.contacts.empty()) {
+    StartSamples samples = start_samples(how.start, scene);
     options.guess = std::move(samples.displacement);
     options.guess_force = std::move(samples.force);
     options.stay_near_guess = true;
   }
-  const Response response = weighted_residual_response(scene, model, options);
+  return weighted_residual_response(scene, model, options);
+}
+
+bool found_no_period(const Response& response) {
+  return !response.converged &&
+         (response.attractor_periods == 0 || (response.settled && response.settled->periods == 0) ||
+          response.status == to_string(solvers::ExactStatus::not_settled));
+}
+
+/// The motion in time in place of a response that was not found, if it is aperiodic.
+std::optional<Record> aperiodic_record(const Scene& scene, const StructureModel& model,
+                                       const AnalysisOptions& how) {
+  const auto in_time = changed_scene(scene, statistics_in_time());
+  if (!in_time || scene.analysis.recorded_periods == 0) return std::nullopt;
+  Record record = stepping_record(*in_time, model, how);
+  if (record.status != quantities::aperiodic) return std::nullopt;
+  for (Entry& entry : record.summary)
+    if (entry.name == quantities::analysis.name) entry.value = name_of(scene.analysis.type);
+  record.add(quantities::solved_by, name_of(in_time->analysis.type));
+  return record;
+}
+
+}  // namespace
+
+Record forced_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
+  const Response response = solved_response(scene, model, how);
+  if (how.start.contacts.empty() && found_no_period(response))
+    if (auto aperiodic = aperiodic_record(scene, model, how)) return *std::move(aperiodic);
   Record record = response_record(scene, model, response);
-  append_start(record, start, response.converged, response.start_distance);
+  append_start(record, how.start, response.converged, response.start_distance);
   return record;
 }
 

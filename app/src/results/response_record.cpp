@@ -125,6 +125,16 @@ void append_attractor_from_rest(Record& record, const Scene& scene, const Respon
         others);
 }
 
+/// What time integration from rest may reach instead was not found.
+void warn_of_another_motion(Record& record, const Scene& scene, const Response& response) {
+  const bool unstable = response.stability && response.stability->unstable > 0 && !response.flow;
+  if (!unstable || (response.settled && response.settled->periods > 0)) return;
+  if (accepts(scene, statistics_in_time()))
+    record.warnings.emplace_back(
+        "analysis.type = \"time_stepping\" with analysis.max_periods = 200 computes the motion that occurs "
+        "instead, with statistics if it is aperiodic.");
+}
+
 void append_other_motions(Record& record, const Scene& scene, const Response& response) {
   if (!response.moves || scene.contact.law == no_law || !kind_of(scene.analysis.type).under_load) return;
   const bool integrated = integrates_in_time(scene.analysis.type) && !is_exact(response);
@@ -237,6 +247,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
     record.add(quantities::phases_status, "no_modes");
   if (response.stability) append_stability(record, *response.stability);
   append_attractor_from_rest(record, scene, response);
+  warn_of_another_motion(record, scene, response);
   append_other_motions(record, scene, response);
   append_condition(record, response.condition, response.rounding_error);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);

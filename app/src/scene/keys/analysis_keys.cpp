@@ -124,10 +124,12 @@ void add_time_stepping(std::vector<SceneKey>& keys) {
   stepping(&Analysis::tolerance, "tolerance", "",
            "relative rms difference of two successive periods at which integration ends", above(0, 1),
            optional);
-  stepping(&Analysis::recorded_periods, "recorded_periods", "",
-           "forcing periods recorded after max_periods if the motion has not repeated, for "
-           "statistics, a Poincare section and a spectrum; 0 for none",
-           within(0, 100'000), optional);
+  const Section recording(keys, "analysis", analysis_part, analysis_is({"time_stepping", "forced_response"}));
+  recording(&Analysis::recorded_periods, "recorded_periods", "",
+            "forcing periods recorded after max_periods if the motion has not repeated, for "
+            "statistics, a Poincare section and a spectrum; also of a forced response that is aperiodic, "
+            "after 200 periods; 0 for none",
+            within(0, 100'000), optional);
   const Section settling(keys, "analysis", analysis_part, analysis_is({"time_stepping", "limit_cycle"}));
   settling(
       &Analysis::max_periods, "max_periods", "",

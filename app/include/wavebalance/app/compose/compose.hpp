@@ -122,6 +122,9 @@ struct SceneChange {
 /// The scene as a forced response, with usual bases and sizes where it has none; impacts have none.
 SceneChange as_response(const Scene& scene);
 
+/// The scene integrated in time for long enough to record statistics of a motion that does not repeat.
+SceneChange statistics_in_time();
+
 /// The scene with this change, if it passes the rules of a file. Keys that the change does not name and that
 /// do not belong to the changed scene are left out, but not keys of the structure that are set. Matrices are
 /// not read again, unless kept_modes is what changes.
