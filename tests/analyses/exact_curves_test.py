@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import wavebalance as wb
 from solved_scenes import JONES, SCENES, STOP, STOP_AMPLITUDE, ZIGZAG, refusal, rows_of, solved, where
 
 EXACT = {"analysis.exact": True}
@@ -97,3 +98,69 @@ def test_special_points_of_the_structure_stand_once_where_the_samples_make_many_
 
 def test_special_points_of_the_structure_are_not_sought_without_stability():
     assert "structure_special_points" not in solved(STOP, {"analysis.stability": False}).summary
+
+
+def bumper(damping=100.0, **analysis):
+    """5 kg at 12 Hz on 1 g between stops of a spring and a dashpot, whose force jumps where they are met with a velocity."""
+    mass, stiffness = 5.0, 5.0 * (24.0 * np.pi) ** 2
+    return {
+        "structure": {"type": "matrices", "mass": np.array([[mass]]), "stiffness": np.array([[stiffness]]),
+                      "damping": np.array([[0.1 * np.sqrt(stiffness * mass)]])},
+        "contact": {"law": "kelvin_voigt", "stiffness": 2.5e5, "damping": damping, "gap": 6e-3, "pairs": [{"dofs": [1], "side": "both"}]},
+        "forcing": {"frequency": 15.0, "terms": [{"kind": "base_acceleration", "dofs": [1], "amplitude": 9.81}]},
+        "analysis": {"type": "frequency_sweep", "exact": True, **analysis},
+    }
+
+
+def swept(scene, frequencies, periods=60, steps=400):
+    """The largest displacement in the last period at each frequency, from the last state before, by Runge-Kutta steps."""
+    (mass,), (stiffness,), (damping,) = (np.ravel(scene["structure"][name]) for name in ("mass", "stiffness", "damping"))
+    stop = scene["contact"]
+    u, v, largest = 0.0, 0.0, []
+
+    def push(d, v):
+        return max(stop["stiffness"] * d + stop["damping"] * v, 0.0) if d > 0.0 else 0.0
+
+    for frequency in frequencies:
+        w, h = 2.0 * np.pi * frequency, 1.0 / frequency / steps
+
+        def rate(t, u, v):
+            force = push(u - stop["gap"], v) - push(-u - stop["gap"], -v)
+            return v, (-9.81 * mass * np.cos(w * t) - damping * v - stiffness * u - force) / mass
+
+        largest.append(-np.inf)
+        for k in range(periods * steps):
+            a = rate(k * h, u, v)
+            b = rate((k + 0.5) * h, u + 0.5 * h * a[0], v + 0.5 * h * a[1])
+            c = rate((k + 0.5) * h, u + 0.5 * h * b[0], v + 0.5 * h * b[1])
+            d = rate((k + 1) * h, u + h * c[0], v + h * c[1])
+            u, v = u + h / 6.0 * (a[0] + 2.0 * b[0] + 2.0 * c[0] + d[0]), v + h / 6.0 * (a[1] + 2.0 * b[1] + 2.0 * c[1] + d[1])
+            if k >= (periods - 1) * steps:
+                largest[-1] = max(largest[-1], u)
+    return largest
+
+
+def test_an_exact_curve_passes_the_contact_of_a_dashpot_whose_force_jumps():
+    scene = bumper(frequency_from=5.0, frequency_to=40.0)
+    record = wb.run(scene)
+    assert record.converged, record.status
+    points = record.summary["special_points"]
+    upper, lower = sorted(where(points, type="fold")["frequency_Hz"])[::-1]
+    # Grazing is that of the linear oscillator.
+    mass, stiffness = 5.0, 5.0 * (24.0 * np.pi) ** 2
+    for frequency in set(where(points, type="grazing")["frequency_Hz"]):
+        w = 2.0 * np.pi * frequency
+        assert 9.81 * mass / abs(stiffness - mass * w**2 + 1j * w * 0.1 * np.sqrt(stiffness * mass)) == pytest.approx(6e-3, rel=1e-8)
+    largest = swept(scene, [14.0, 16.0, 17.0, 17.4, 17.7, upper - 0.05, upper + 0.1])
+    assert largest[-2] > 6e-3 > largest[-1]
+    back = swept(scene, [20.0, 16.0, 14.5, 14.0, 13.7, lower + 0.05, lower - 0.1])
+    assert back[-2] < 6e-3 < back[-1]
+
+
+def test_an_exact_curve_without_a_dashpot_has_the_folds_of_the_spring_alone():
+    frequencies = {"frequency_from": 5.0, "frequency_to": 40.0}
+    elastic = bumper(**frequencies)
+    elastic["contact"] = {"law": "clearance", "stiffness": 2.5e5, "gap": 6e-3, "pairs": [{"dofs": [1]}]}
+    weak = wb.run(bumper(damping=1e-6, **frequencies))
+    assert weak.converged
+    assert weak.summary["turning_points_Hz"] == pytest.approx(wb.run(elastic).summary["turning_points_Hz"], rel=1e-6)

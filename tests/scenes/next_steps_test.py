@@ -68,9 +68,10 @@ def test_no_step_names_what_the_law_refuses(advice):
     assert not any("time." in step for step in advice("restitution"))
 
 
-def test_a_damper_that_sets_in_at_once_is_advised_a_depth_and_no_exact_curve(advice):
-    assert "contact.damping_depth = 1e-5" in advice("kelvin_voigt")
-    assert not any("analysis.exact" in step for step in advice("kelvin_voigt"))
+def test_a_damper_that_sets_in_at_once_is_advised_the_exact_curve_and_then_a_depth(advice):
+    steps = advice("kelvin_voigt")
+    assert steps.index("analysis.exact = true") + 1 == steps.index("contact.damping_depth = 1e-5")
+    assert "analysis.exact = true without analysis.motion_at" in advice("kelvin_voigt", set=['analysis.motion_at=["peak"]'])
     assert "contact.damping_depth = 2e-7" in advice("kelvin_voigt", set=["contact.gap=2e-5"])
     deeper = advice("kelvin_voigt", set=["contact.damping_depth=1e-5"])
     assert "analysis.exact = true" in deeper and not any("damping_depth" in step for step in deeper)

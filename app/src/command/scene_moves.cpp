@@ -220,9 +220,12 @@ Step other_start(const Scene& scene) {
 }
 
 Step exact_curve(const Scene& scene) {
-  // A damper that sets in at once makes the force jump where a contact closes, and an exact curve ends there.
-  if (scene.analysis.exact || sudden_damper(contacts_of(scene)) != nullptr) return std::nullopt;
-  return set_to("analysis.exact", true);
+  if (scene.analysis.exact) return std::nullopt;
+  Step step = set_to("analysis.exact", true);
+  if (scene.analysis.motion_at.empty()) return step;
+  step->text += " without analysis.motion_at";
+  step->change.unset.emplace_back("analysis.motion_at");
+  return step;
 }
 
 Step curve_of_balance(const Scene& scene) {

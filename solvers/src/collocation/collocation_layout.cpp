@@ -149,7 +149,7 @@ std::vector<Step> all_steps_of(const LawSegments& law, double frequency, const S
 Passage passage_of(int contact, const LawSegments& law, const Step& step) {
   const int from = law.without_release(step.from), to = law.without_release(step.to);
   const bool leaves = law.jumps() && law.exerts(from) && !law.exerts(to);
-  if (from == to) return {contact, step.time, 0.0, true};
+  if (from == to) return {contact, step.time, no_breakpoint, true};
   return {contact, step.time, law.breakpoint(std::min(from, to)), leaves};
 }
 

@@ -1,11 +1,15 @@
 #pragma once
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "collocation/law_segments.hpp"
 #include "collocation/pole_response.hpp"
 
 namespace wavebalance::solvers::detail {
+
+/// That of an instant at which a force vanishes within a piece.
+inline constexpr double no_breakpoint = std::numeric_limits<double>::infinity();
 
 /// An instant at which a contact passes a breakpoint of its law, or at which its force vanishes.
 struct Passage {

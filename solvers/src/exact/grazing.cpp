@@ -64,6 +64,13 @@ void erase_passage(Layout& layout, int number) {
   }
 }
 
+// Whether a contact on a piece that begins there ends with its force, before it leaves the piece.
+bool ends_with_force(const Layout& layout, int from, int to) {
+  const auto begins = [&](const LayoutInterval& phase) { return phase.begin == to; };
+  return passage(layout, to).breakpoint == no_breakpoint && !passage(layout, from).released &&
+         std::none_of(layout.phases.begin(), layout.phases.end(), begins);
+}
+
 }  // namespace
 
 std::vector<Interval> intervals_of(const Layout& layout) {
@@ -74,7 +81,8 @@ std::vector<Interval> intervals_of(const Layout& layout) {
       const bool last = i + 1 == numbers.size();
       const int from = numbers[i], to = numbers[last ? 0 : i + 1];
       const Passage &a = passage(layout, from), &b = passage(layout, to);
-      if (a.breakpoint != b.breakpoint || a.released || b.released || from == to) continue;
+      const bool passes = a.breakpoint == b.breakpoint && !a.released && !b.released && from != to;
+      if (!passes && !ends_with_force(layout, from, to)) continue;
       intervals.push_back({c, from, to, a.time, b.time - a.time + (last ? 1.0 : 0.0)});
     }
   }

@@ -12,7 +12,8 @@ struct Interval {
   double begin = 0.0, length = 0.0;   ///< periods
 };
 
-/// Those that vanish where a contact grazes: between passages of the same breakpoint, the shortest first.
+/// Those that vanish where a contact grazes: between passages of the same breakpoint, or from one to the end
+/// of a force of the velocity, the shortest first.
 std::vector<Interval> intervals_of(const Layout& layout);
 
 /// How an interval's length changes along a direction, as of PathPoint.
