@@ -361,6 +361,20 @@ def test_a_unit_tells_that_a_row_without_a_name_rotates(run, matrix):
     assert "(mrad)" in (record.folder / "outputs.svg").read_text()
 
 
+def test_the_unit_of_a_pair_tells_that_its_rows_rotate(run, matrix):
+    matrix("m.mtx", [[1.0]])
+    matrix("k.mtx", [[1e3]])
+    unnamed = TURNING.replace('dof_map = "turning.dof"\n', "").replace("contact_dofs = [1]\n", "")
+    pair = unnamed.replace("[forcing]", '[[contact.pairs]]\ndofs = [1]\nunit = "rad"\n[forcing]')
+    record = run(pair.format(analysis='type = "forced_response"'))
+    assert record.summary["displacement_unit"] == "rad", record.errors
+    drawing = (record.folder / "response.svg").read_text()
+    assert "mrad)" in drawing and "mm)" not in drawing
+    assert re.search(r"largest contact force is [0-9.]+ N m\.", sentences(record.page))
+    metres = run(pair.replace('"rad"', '"mm"').format(analysis='type = "forced_response"'))
+    assert metres.code == 2 and "contact.pairs[1].unit" in metres.errors and "rad" in metres.errors
+
+
 def test_a_length_of_a_rotation_is_refused(command, matrix, tmp_path):
     matrix("m.mtx", [[1.0]])
     matrix("k.mtx", [[1e3]])

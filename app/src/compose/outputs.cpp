@@ -218,6 +218,8 @@ std::string Output::quantity_words(const std::string& of_displacement) const {
 
 std::string displacement_unit(const Scene& scene, const SceneContact& contact) {
   if (scene.structure.type != StructureType::matrices) return "m";
+  if (contact.pair && !scene.contact.pairs[*contact.pair].unit.empty())
+    return scene.contact.pairs[*contact.pair].unit;
   const auto files = structure_files(scene);
   const auto rotates = [&](int dof) { return is_rotation(*files, dof - 1); };
   return std::ranges::all_of(contact.dofs, rotates) ? "rad" : "m";

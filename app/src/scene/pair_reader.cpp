@@ -47,6 +47,7 @@ class PairReader {
                     pair_.second_tangent_coefficients});
     take("side");
     take("name");
+    take("unit");
     check_name();
   }
 

@@ -134,6 +134,9 @@ std::vector<SceneKey> pair_keys(std::size_t index) {
        one_of(law_names([](const contact::LawEntry& law) { return law.name != no_law; })),
        derived("as in [contact]", [](const Scene& scene) { return scene.contact.law; }));
   pair(&ContactPair::name, "name", "", "name of the contact in texts and pictures", none_by_default());
+  pair(&ContactPair::unit, "unit", "",
+       "unit of its displacement: rad where dofs are rotations, which a dof_map says otherwise",
+       one_of({"rad"}), none_by_default());
   add_law_keys_of_pair(keys, index);
   return keys;
 }
