@@ -33,6 +33,17 @@ def test_a_sweep_has_the_digits_of_the_scene_of_the_same_structure(chain):
     np.testing.assert_array_equal(np.nan_to_num(record.sweep["unstable"], nan=-1), curve.unstable)
 
 
+def test_a_lost_curve_of_a_function_asks_for_its_kinks():
+    mass, stiffness, damping, gap = 5.0, 28424.5, 37.7, 6e-3
+    shaker = wb.Structure([[mass]], [[damping]], [[stiffness]], load=[-9.81 * mass], contacts=[0])
+    stop = lambda u: 2.5e5 * max(u - gap, 0.0)  # noqa: E731
+    lost = wb.frequency_sweep(shaker, stop, 5.0, 40.0, wb.Pair("fourier", 15, 64))
+    assert lost.status == "lost"
+    assert any("kinks" in one for one in lost.warnings)
+    named = wb.frequency_sweep(shaker, wb.Function(stop, kinks=[gap]), 5.0, 40.0, wb.Pair("fourier", 15, 64))
+    assert not any("kinks" in one for one in named.warnings)
+
+
 def test_stability_that_is_not_known_is_masked_and_not_unstable(oscillator):
     curve = wb.frequency_sweep(oscillator(load=0.3, damping=0.05), wb.Cubic(1.0), 0.1, 0.4, wb.Pair("fourier", 15, 64))
 

@@ -343,6 +343,11 @@ class Function(Law):
         raise ValueError("a law of Python functions has no keys; a scene takes Table('name.csv') in its place")
 
 
+def may_have_unnamed_kinks(laws: Any) -> bool:
+    """Whether one of these laws, of :func:`as_laws`, is a Function without kinks."""
+    return any(isinstance(one, Function) and not one._arguments[3]["kinks"] for one in (laws if isinstance(laws, list) else [laws]))
+
+
 def _restored_function(force: Any, tangent: Any, potential: Any, named: dict[str, Any]) -> Function:
     return Function(force, tangent, potential, **named)
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _core, _plots
 from ._matrices import as_count, as_number
-from .laws import LawLike, as_laws
+from .laws import LawLike, as_laws, may_have_unnamed_kinks
 from .responses import Problem, ProblemLike, Response, as_problem, harmonics_of
 from .structure import Pair
 
@@ -78,6 +78,8 @@ class Sweep(_core.Curve):
             texts.append(f'The curve did not reach its end: "{self.status}".')
         elif not self.converged:
             texts.append("Rounding leaves the motions less accurate than 1e-3.")
+        if self.status not in ("reached_end", "cancelled") and may_have_unnamed_kinks(self._laws):
+            texts.append("A law of functions has no kinks. If its slope jumps, as at a gap, Function(force, kinks=[gap]) names the place.")
         if len(self) == 0 or len(self.stability_status) != len(self):
             return texts
         turns, folds = len(self.turning_points), len(self.special("fold"))
