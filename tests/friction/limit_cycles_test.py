@@ -205,6 +205,7 @@ def test_cycles_over_the_speed_of_the_belt_by_a_study(tmp_path):
 @pytest.mark.parametrize("change, key", [
     ({"forcing": {"amplitude": 1.0, "load_dofs": [1]}}, "forcing.amplitude"),
     ({"forcing": {"terms": [{"dofs": [1], "amplitude": 1.0, "harmonic": 2}]}}, "forcing.terms[1].harmonic"),
+    ({"forcing": {"frequency": 1.0}}, "forcing.frequency"),
     ({"structure": {"loss_factor": 0.01}}, "structure.loss_factor"),
     ({"contact": {"law": "rigid", "gap": 1.0, "pairs": [{"dofs": [1]}]}}, "contact.law"),
     ({"time": {"trial": "fourier", "weight": "fourier", "functions": 15}}, "time.trial"),

@@ -136,6 +136,9 @@ void check_without_load(const Document& document, const Scene& scene) {
                     none = not_with + ", a motion without periodic load; expected ";
   if (scene.forcing.amplitude != 0.0)
     fail_rule(document, {"forcing.amplitude", "analysis.type"}, none + "0 or none");
+  if (scene.forcing.frequency != 0.0)
+    fail_rule(document, {"forcing.frequency", "analysis.type"},
+              not_with + ", whose frequency is found; expected none");
   for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) {
     const ForcingTerm& term = scene.forcing.terms[i];
     if (!term.samples.empty() || term.harmonic != 0)

@@ -137,9 +137,9 @@ std::vector<std::string> unstable_parts(const Summary& summary, const SweepAxis&
     const std::string curve = curve_of_part(*parts, i);
     if (places.empty() || places.back().first != curve)
       places.emplace_back(curve, std::vector<std::string>());
-    places.back().second.push_back(begins[i] == ends[i] ? quantity(ends[i], axis.unit, 7)
-                                                        : short_number(begins[i], 7) + " to " +
-                                                              short_number(ends[i], 7) + " " + axis.unit);
+    const std::string begin = short_number(begins[i], 7), end = short_number(ends[i], 7);
+    places.back().second.push_back(begin == end ? quantity(ends[i], axis.unit, 7)
+                                                : begin + " to " + end + " " + axis.unit);
   }
   std::vector<std::string> sentences;
   for (const auto& [curve, where] : places)

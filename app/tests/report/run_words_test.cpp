@@ -97,7 +97,7 @@ TEST(RunWords, SpecialPointsAreThoseOfTheBalanceWhereTheCurveOfTheStructureIsKno
 TEST(RunWords, AnUnstablePartOfOnePointIsNamedByIt) {
   Table parts({"branch", "begin_Hz", "end_Hz"});
   parts.append_row({std::int64_t{0}, 11.0, 10.5});
-  parts.append_row({std::int64_t{0}, 13.0, 13.0});
+  parts.append_row({std::int64_t{0}, 13.0, 13.0 - 1e-9});
   const std::string text =
       joined(stability_sentences({{"stability", std::string("partly_known")},
                                   {"points", std::int64_t{6}},

@@ -73,9 +73,10 @@ MasslessContacts with_massless_contacts(LinearStructure structure, int modes, co
                                         const Eigen::MatrixXd& shapes) {
   if (modes < 1)
     throw std::invalid_argument(
-        "contact.mass = \"redistribute\": " + std::to_string(structure.size()) + " degrees of freedom, " +
-        std::to_string(structure.contacts()) +
-        " contacts; expected more degrees of freedom than contacts, or \"keep\" in its place");
+        "contacts without mass, as a rigid law without restitution and contact.mass = \"redistribute\" need "
+        "them: " +
+        std::to_string(structure.size()) + " degrees of freedom, " + std::to_string(structure.contacts()) +
+        " contacts; expected more degrees of freedom than contacts, a restitution, or another law with mass");
   Eigen::MatrixXd basis = transformation(omega, shapes, structure.contact_directions, modes);
   structure.stiffness = transformed(structure.stiffness, basis);
   structure.damping = transformed(structure.damping, basis);

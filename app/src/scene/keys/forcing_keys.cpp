@@ -20,7 +20,8 @@ void add_forcing_keys(std::vector<SceneKey>& keys) {
           required_with(analysis_where(&AnalysisKind::under_load)));
   keys.back().in_terms = true;
   forcing(&Forcing::amplitude_table, "amplitude_table", "", table_help, path, none_by_default());
-  forcing(&Forcing::frequency, "frequency", "Hz", "forcing frequency; not used in sweeps", positive,
+  forcing(&Forcing::frequency, "frequency", "Hz",
+          "forcing frequency; not used by sweeps and diagrams over the frequency", positive,
           required_with(analysis_where(&AnalysisKind::at_one_frequency)));
   forcing(&Forcing::load, "load", "",
           "load vector for amplitude 1: a file of one column, Nastran DMIG or OUTPUT4, Abaqus "
