@@ -146,7 +146,7 @@ def test_an_exact_curve_passes_the_contact_of_a_dashpot_whose_force_jumps():
     assert record.converged, record.status
     points = record.summary["special_points"]
     upper, lower = sorted(where(points, type="fold")["frequency_Hz"])[::-1]
-    # Grazing is that of the linear oscillator.
+    # Grazing of the linear oscillator.
     mass, stiffness = 5.0, 5.0 * (24.0 * np.pi) ** 2
     for frequency in set(where(points, type="grazing")["frequency_Hz"]):
         w = 2.0 * np.pi * frequency

@@ -70,7 +70,7 @@ bool found_no_period(const Response& response) {
           response.status == to_string(solvers::ExactStatus::not_settled));
 }
 
-/// The motion in time in place of a response that was not found, if it is aperiodic.
+/// The motion in time instead of a response that was not found, if it is aperiodic.
 std::optional<Record> aperiodic_record(const Scene& scene, const StructureModel& model,
                                        const AnalysisOptions& how) {
   const auto in_time = changed_scene(scene, statistics_in_time());

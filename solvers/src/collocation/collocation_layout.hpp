@@ -8,7 +8,7 @@
 
 namespace wavebalance::solvers::detail {
 
-/// That of an instant at which a force vanishes within a piece.
+/// The breakpoint of an instant at which a force vanishes within a segment.
 inline constexpr double no_breakpoint = std::numeric_limits<double>::infinity();
 
 /// An instant at which a contact passes a breakpoint of its law, or at which its force vanishes.

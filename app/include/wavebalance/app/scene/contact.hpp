@@ -34,7 +34,7 @@ struct ContactPair {
   contact::LawValues values = {};  ///< as in Contact
   double gap = 0.0;                ///< m, on every side that has an obstacle
   std::string name = {};           ///< shown in texts and pictures; empty: its number is shown
-  std::string unit = {};           ///< of its displacement "rad"; empty: m, or that of the dof_map
+  std::string unit = {};           ///< of its displacement "rad"; empty: m, or from the dof_map
 
   /// A value by its name. Throws std::out_of_range where none is set.
   double number(std::string_view parameter) const { return contact::number_of(values, parameter); }
