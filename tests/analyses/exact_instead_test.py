@@ -63,8 +63,9 @@ def test_the_motion_in_time_is_the_answer_where_the_functions_hold_none():
 # From rest the stops press the body so that its first period took all operations, of which a hundred are needed.
 def test_no_motion_of_the_period_is_told_where_time_integration_leads_to_none():
     scene = pressed_body()
-    record = wb.run(scene)
+    record = wb.run(scene, {"analysis.recorded_periods": 0})
     assert not record.converged and record.summary["attractor_periods"] == 0
     assert any("did not repeat" in told for told in record.warnings)
+    assert wb.run(scene, {"analysis.recorded_periods": 64}).status == "aperiodic"
     in_time = stepped(scene, max_periods=150)
     assert in_time.summary["attractor_periods"] == 0

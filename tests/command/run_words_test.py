@@ -31,6 +31,14 @@ def test_a_motion_is_told_with_its_contact_and_its_distance_from_the_gap(told):
                    f"{1e-3 * summary['max_contact_force_N']:.4g} kN") == []
 
 
+@pytest.mark.parametrize("functions, large", [(9, True), (255, False)])
+def test_large_errors_name_the_sizes_that_reduce_them(told, functions, large):
+    summary, text = told(BAR, {"time.functions": functions, "time.quadrature_points": 4 * functions})
+    assert (max(summary["error_of_displacement"], summary["error_of_force"]) > 1e-2) == large
+    words = f"More time.quadrature_points (now {4 * functions}) and more time.functions ({functions}) reduce these errors."
+    assert (words in text) == large
+
+
 def test_a_motion_that_has_not_converged_is_called_no_solution(told):
     _, text = told(BAR, {"analysis.type": "time_stepping", "analysis.max_periods": 1})
     assert lacking(text, "was not solved (iteration limit)", "The motion below is not a solution.") == []

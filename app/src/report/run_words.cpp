@@ -73,10 +73,7 @@ void append_impacts(std::vector<std::string>& sentences, const Summary& summary)
   const double impulse = number_in(summary, quantities::max_impulse),
                count = number_in(summary, quantities::impacts),
                share = number_in(summary, quantities::contact_fraction);
-  if (impulse == 0.0) {
-    sentences.emplace_back("There is no contact.");
-    return;
-  }
+  if (impulse == 0.0) return sentences.push_back("There is no contact.");
   const std::string largest = quantity(impulse, force_unit_in(summary) + " s");
   if (std::isfinite(count))
     sentences.push_back(fmt::format(
@@ -207,6 +204,12 @@ void append_exact(std::vector<std::string>& sentences, const Summary& summary, b
         fmt::format("Over the period and all contacts{} the relative rms error is {} for the displacement{}.",
                     curve ? ", at the peak," : "", percentage(error),
                     std::isfinite(force) ? " and " + percentage(force) + " for the contact force" : ""));
+    const double functions = number_in(summary, quantities::functions),
+                 points = number_in(summary, quantities::quadrature_points);
+    if (std::max(error, force) > 1e-2 && std::isfinite(functions + points))
+      sentences.back() += fmt::format(
+          " More time.quadrature_points (now {:.0f}) and more time.functions ({:.0f}) reduce these errors.",
+          points, functions);
   } else if (!status.empty() && status != "not_found" && status != "not_computed") {
     sentences.push_back("The error against the exact periodic solution is not known (" +
                         (status == "too_many_phases" ? "too many contact intervals" : spaced_words(status)) +
@@ -220,11 +223,10 @@ void append_motions(std::vector<std::string>& sentences, const Summary& summary,
   int stable = 0;
   for (std::size_t i = 0; i < motions->rows(); ++i)
     stable += cell_text(motions->at(i, "stability")) == "stable";
-  const std::size_t all = motions->rows();
   sentences.push_back(fmt::format("From rest and {} {} motion{} {} found, and {} of them {} stable.",
-                                  count_of(summary, quantities::random_starts, "random start"), all,
-                                  all == 1 ? "" : "s", all == 1 ? "was" : "were", stable,
-                                  stable == 1 ? "is" : "are"));
+                                  count_of(summary, quantities::random_starts, "random start"),
+                                  motions->rows(), motions->rows() == 1 ? "" : "s",
+                                  motions->rows() == 1 ? "was" : "were", stable, stable == 1 ? "is" : "are"));
   append_motion(sentences, summary, gap);
 }
 

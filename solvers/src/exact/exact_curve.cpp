@@ -183,7 +183,7 @@ ExactCurve exact_curve(const ProblemFamily& family, const ExactSolution& first,
     IntervalTracer(model, curve, std::move(*start)).run();
   else
     curve.start = ExactStatus::not_found;
-  // Phases of forces of the velocity often end where a force vanishes, where the equations of phases have no
+  // A force of the velocity may vanish and begin anew within a contact, where the equations of phases have no
   // switch.
   if (curve.status == SweepStatus::lost && family.laws().depend_on_velocity()) {
     ExactCurve other = detail::map_curve(family, first, options);
