@@ -1,4 +1,4 @@
-#include "problem.hpp"
+#include "sweeps.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "results/stability.hpp"
+#include "results/record_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "files/missing.hpp"
-#include "results/quantities.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 

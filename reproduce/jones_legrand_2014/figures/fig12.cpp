@@ -5,7 +5,7 @@
 
 #include "convergence.hpp"
 #include "figures.hpp"
-#include "problem.hpp"
+#include "sweeps.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/results/record.hpp"
