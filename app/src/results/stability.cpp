@@ -129,29 +129,6 @@ void append_turning_points(Record& record, const Sweep& sweep, bool known) {
       of_samples.size(), folds.size(), folds.size() == 1 ? "" : "s");
 }
 
-}  // namespace
-
-void append_stability(Record& record, const ResponseStability& stability, std::string_view motion) {
-  record.add(quantities::stability, stability.status);
-  record.add(quantities::unstable_multipliers, stability.unstable >= 0
-                                                   ? SummaryValue(std::int64_t{stability.unstable})
-                                                   : SummaryValue(missing));
-  record.add(quantities::leading_multiplier_real, stability.leading.real());
-  record.add(quantities::leading_multiplier_imag, stability.leading.imag());
-  if (stability.unstable <= 0) return;
-  constexpr double real = 1e-6;  // of the modulus
-  const bool pair = stability.unstable == 2 && stability.leading.imag() > real * std::abs(stability.leading);
-  const double rotation = std::arg(stability.leading) / (2.0 * std::numbers::pi);
-  warn(record, "The {} is unstable, with {} Floquet multiplier{} outside the unit circle{}.", motion,
-       stability.unstable, stability.unstable == 1 ? "" : "s",
-       pair ? fmt::format(", a complex pair: as beyond a Neimark-Sacker point, disturbances grow to a "
-                          "quasi-periodic motion, at first with {} times the frequency of the {} beside it",
-                          short_number(rotation, 4), motion)
-            : "");
-}
-
-namespace {
-
 /// Whether stability is known along the curve, or at how many points it is not and why, and where motions are
 /// unstable.
 void append_status_along(Record& record, const Sweep& sweep, bool complete) {
@@ -166,32 +143,6 @@ void append_status_along(Record& record, const Sweep& sweep, bool complete) {
   Table parts = unstable_parts(sweep);
   if (!parts.empty()) record.add(quantities::unstable_parts, std::move(parts));
 }
-
-}  // namespace
-
-void append_stability(Record& record, const Scene& scene, const Sweep& sweep) {
-  const bool complete =
-      !sweep.stability.cancelled && sweep.stability.points.size() == sweep.curve.points.size();
-  // Curves with impacts turn at grazings, too, and exactly.
-  const bool folds_alone = sweep.impacts.empty() && folds_are_known(sweep.stability);
-  append_turning_points(record, sweep, complete && folds_alone && scene.analysis.special_points);
-  if (sweep.stability.points.empty() && record.interrupted && scene.analysis.stability)
-    record.add(quantities::stability, "interrupted");
-  if (sweep.stability.points.empty()) return;
-  append_status_along(record, sweep, complete);
-  warn_where_all_are_unstable(record, sweep.stability_of(0).points);
-  if (!scene.analysis.special_points) return;
-  record.add(quantities::special_points, table_of(sweep));
-  append_structure_points(record, sweep);
-  if (!sweep.unexplained.empty())
-    warn(record,
-         "Before {} {} the number of unstable multipliers changes without a listed "
-         "bifurcation point: one is missing.",
-         short_numbers(sweep.unexplained, 6), sweep_axis(sweep).unit);
-  warn_of_quasi_periodic_motions(record, sweep.stability.special_points, sweep);
-}
-
-namespace {
 
 /// "frequency_to", or "amplitude_to" of a branch that left the interval of an amplitude sweep there.
 std::string end_of_branch(const solvers::Branch& branch, const SweepAxis& axis) {
@@ -273,8 +224,15 @@ void append_stability(Record& record, const ResponseStability& stability, std::s
   record.add(quantities::leading_multiplier_real, stability.leading.real());
   record.add(quantities::leading_multiplier_imag, stability.leading.imag());
   if (stability.unstable <= 0) return;
-  warn(record, "The {} is unstable, with {} Floquet multiplier{} outside the unit circle.", motion,
-       stability.unstable, stability.unstable == 1 ? "" : "s");
+  constexpr double real = 1e-6;  // of the modulus
+  const bool pair = stability.unstable == 2 && stability.leading.imag() > real * std::abs(stability.leading);
+  const double rotation = std::arg(stability.leading) / (2.0 * std::numbers::pi);
+  warn(record, "The {} is unstable, with {} Floquet multiplier{} outside the unit circle{}.", motion,
+       stability.unstable, stability.unstable == 1 ? "" : "s",
+       pair ? fmt::format(", a complex pair: as beyond a Neimark-Sacker point, disturbances grow to a "
+                          "quasi-periodic motion, at first with {} times the frequency of the {} beside it",
+                          short_number(rotation, 4), motion)
+            : "");
 }
 
 void append_stability(Record& record, const Scene& scene, const Sweep& sweep) {
@@ -283,6 +241,8 @@ void append_stability(Record& record, const Scene& scene, const Sweep& sweep) {
   // Curves with impacts turn at grazings, too, and exactly.
   const bool folds_alone = sweep.impacts.empty() && folds_are_known(sweep.stability);
   append_turning_points(record, sweep, complete && folds_alone && scene.analysis.special_points);
+  if (sweep.stability.points.empty() && record.interrupted && scene.analysis.stability)
+    record.add(quantities::stability, "interrupted");
   if (sweep.stability.points.empty()) return;
   append_status_along(record, sweep, complete);
   warn_where_all_are_unstable(record, sweep.stability_of(0).points);
