@@ -124,3 +124,14 @@ def test_outputs_that_are_no_displacements_are_left_out(run, flutter):
     places = {row["place"] for row in rows_of(record.folder / "statistics.csv")}
     assert {"contact 1", "contact 2", "row 2"} <= places
     assert "velocity of row 2" not in places
+
+
+def test_an_unstable_response_with_a_complex_pair_has_the_rotation_of_its_perturbations(run, flutter):
+    bases = 'trial = "fourier"\nweight = "fourier"\nfunctions = 31\nquadrature_points = 64'
+    response = f'frequency = {FREQUENCY!r}\n[time]\n{bases}\n[analysis]\ntype = "forced_response"\nstability = true\n'
+    record = run(STRUCTURE + response)
+    assert record.summary["unstable_multipliers"] == 2
+    linear = np.block([[np.zeros((2, 2)), np.eye(2)], [-STIFFNESS, -0.02 * np.eye(2)]])  # no contact closes
+    exponents = np.linalg.eigvals(linear) / FREQUENCY
+    rotation = abs(np.angle(np.exp(exponents[np.argmax(exponents.real)]))) / (2.0 * np.pi)
+    assert any(f"rotate at {rotation:.4g} times its frequency" in one for one in record.summary["warnings"])

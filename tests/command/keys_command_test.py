@@ -61,7 +61,7 @@ def test_keys_of_a_choice_leave_out_what_such_a_scene_may_not_hold(keys):
 
 def test_keys_of_a_law_are_its_own_parameters_as_it_has_them(keys):
     text = keys("contact", "contact.law=linear")
-    assert names_in(text) == ["dofs", "coefficients", "side", "law", "name", "stiffness", "gap",
+    assert names_in(text) == ["dofs", "coefficients", "side", "law", "name", "unit", "stiffness", "gap",
                               "law", "stiffness", "gap", "form", "mass"]
     assert "slope of the linear law.\n" in text
     assert "clearance law" not in text

@@ -229,9 +229,10 @@ void append_stability(Record& record, const ResponseStability& stability, std::s
   const double rotation = std::arg(stability.leading) / (2.0 * std::numbers::pi);
   warn(record, "The {} is unstable, with {} Floquet multiplier{} outside the unit circle{}.", motion,
        stability.unstable, stability.unstable == 1 ? "" : "s",
-       pair ? fmt::format(", a complex pair: as beyond a Neimark-Sacker point, disturbances grow to a "
-                          "quasi-periodic motion, at first with {} times the frequency of the {} beside it",
-                          short_number(rotation, 4), motion)
+       pair ? fmt::format(
+                  ", a complex pair as after a Neimark-Sacker point: perturbations grow and rotate at {} "
+                  "times its frequency, and the motion that occurs is often quasi-periodic",
+                  short_number(rotation, 4))
             : "");
 }
 
