@@ -228,8 +228,7 @@ class Clearance(Law):
 class Table(Law):
     """A spring by its measured characteristic: the monotone cubic interpolant of points.
 
-    Parameters: `displacements`, m, ascending, and as many `forces`, N; or the name of a CSV file with only these
-    columns.
+    Parameters: `displacements`, m, ascending, and as many `forces`, N; or the name of a CSV file with both.
     """
 
     _row = "table"
@@ -341,11 +340,6 @@ class Function(Law):
 
     def scene_keys(self) -> dict[str, Any]:
         raise ValueError("a law of Python functions has no keys; a scene takes Table('name.csv') in its place")
-
-
-def may_have_unnamed_kinks(laws: Any) -> bool:
-    """Whether one of these laws, of :func:`as_laws`, is a Function without kinks."""
-    return any(isinstance(one, Function) and not one._arguments[3]["kinks"] for one in (laws if isinstance(laws, list) else [laws]))
 
 
 def _restored_function(force: Any, tangent: Any, potential: Any, named: dict[str, Any]) -> Function:

@@ -10,13 +10,18 @@ import numpy.typing as npt
 
 from . import _core, _plots
 from ._matrices import as_count, as_number
-from .laws import LawLike, as_laws, may_have_unnamed_kinks
+from .laws import Function, LawLike, as_laws
 from .responses import Problem, ProblemLike, Response, as_problem, harmonics_of
 from .structure import Pair
 
 __all__ = ["Sweep", "amplitude_sweep", "frequency_sweep", "overlay"]
 
 Numbers = npt.NDArray[np.float64]
+
+
+def _may_have_unnamed_kinks(laws: Any) -> bool:
+    """Whether one of these laws is a Function without kinks."""
+    return any(isinstance(one, Function) and not one._arguments[3]["kinks"] for one in (laws if isinstance(laws, list) else [laws]))
 
 
 class Sweep(_core.Curve):
@@ -78,7 +83,7 @@ class Sweep(_core.Curve):
             texts.append(f'The curve did not reach its end: "{self.status}".')
         elif not self.converged:
             texts.append("Rounding leaves the motions less accurate than 1e-3.")
-        if self.status not in ("reached_end", "cancelled") and may_have_unnamed_kinks(self._laws):
+        if self.status not in ("reached_end", "cancelled") and _may_have_unnamed_kinks(self._laws):
             texts.append("A law of functions has no kinks. If its slope jumps, as at a gap, Function(force, kinks=[gap]) names the place.")
         if len(self) == 0 or len(self.stability_status) != len(self):
             return texts

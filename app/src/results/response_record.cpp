@@ -125,7 +125,7 @@ void append_attractor_from_rest(Record& record, const Scene& scene, const Respon
         others);
 }
 
-/// What time integration from rest may reach instead was not found.
+/// Names the analysis of the motion that occurs if time integration from rest found none.
 void warn_of_another_motion(Record& record, const Scene& scene, const Response& response) {
   const bool unstable = response.stability && response.stability->unstable > 0 && !response.flow;
   if (!unstable || (response.settled && response.settled->periods > 0)) return;

@@ -258,7 +258,8 @@ Candidate rest_of(const Task& task, const Eigen::VectorXd& form) {
 }
 
 /// With the contacts that are closed at rest as springs of the structure. They may stay closed where the
-/// motion without contact would open all of them, as springs and dimples that press against each other.
+/// motion without contact would open all of them, as springs and dimples that press against each other. Sets
+/// `settled` if it is not known.
 Candidate solve_from_rest(const Task& task, const Eigen::VectorXd& form, AttractorMotion& settled) {
   const Candidate rest = rest_of(task, form);
   if (!rest.converged()) return no_solution(rest.newton.status, form, {});
@@ -269,8 +270,12 @@ Candidate solve_from_rest(const Task& task, const Eigen::VectorXd& form, Attract
   Candidate found = try_newton(beside, {}, linear, Strategy::load_continuation);
   if (!found.ended())
     found = better(std::move(found), try_homotopy(beside, {}, rest.unknown, Strategy::load_continuation));
-  if (!found.ended()) found = solve_attractor(beside, {}, linear, std::move(found), settled);
-  settled.last.force = task.laws.force(settled.last.displacement);
+  AttractorMotion attractor;
+  if (!found.ended()) found = solve_attractor(beside, {}, linear, std::move(found), attractor);
+  if (settled.attractor_periods == AttractorMotion::unknown && attractor.integrated()) {
+    settled = std::move(attractor);
+    settled.last.force = task.laws.force(settled.last.displacement);
+  }
   if (!found.converged()) return no_solution(found.newton.status, form, {});
   ContactSystem system = task.system({});
   system.evaluate(found.unknown);

@@ -18,7 +18,8 @@ enum class Strategy {
   /// Newton's method at growing shares of the contact force, from the motion without contact
   stiffness_continuation,
   gap_continuation,   ///< arc length in the gaps, from where the first contact touches to the gaps given
-  load_continuation,  ///< growing loads, from rest; contacts that are closed there are springs of the structure
+  load_continuation,  ///< growing loads, from rest; contacts that are closed there are springs of the
+                      ///< structure
   sticking,           ///< Newton's method from the motion in which all contacts with friction stick
   settling,           ///< Newton's method from the motion that the structure at rest converges to
   recurrence,         ///< Newton's method from a period after which that motion nearly returns
