@@ -62,13 +62,13 @@ void point(benchmark::State& state) {
 
 // From a balance of 63 functions to the motion of the structure; the second argument is the tolerance's
 // exponent.
-void phases(benchmark::State& state) {
+void exact(benchmark::State& state) {
   const Case scene = jl14_case(static_cast<int>(state.range(0)));
   solvers::ContactProblem problem(fourier_problem(scene, 63, 256), scene.law());
   const solvers::PeriodicResponse response = problem.respond(scene.frequency);
   const solvers::CollocationOptions options{.tolerance = std::pow(10.0, -double(state.range(1)))};
   std::optional<solvers::ExactNearResponse> found;
-  for (auto _ : state) found = problem.phases(response, options);
+  for (auto _ : state) found = problem.exact_near(response, options);
   if (!found || !found->motion.converged()) {
     state.SkipWithError("not converged");
     return;
@@ -178,7 +178,7 @@ BENCHMARK_CAPTURE(make_pair, daubechies6_daubechies6, "daubechies6_daubechies6")
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(make_pair, haar_fourier, "haar_fourier")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(make_pair, bspline_bspline, "bspline_bspline")->Unit(benchmark::kMillisecond);
-BENCHMARK(phases)
+BENCHMARK(exact)
     ->ArgNames({"case", "digits"})
     ->Args({1, 8})
     ->Args({1, 12})

@@ -32,11 +32,11 @@ void add_panel(app::Figure& figure, const Study& study, const std::vector<Point>
   constexpr std::size_t most = 5;
   for (const app::BasisPair& pair : app::leading_pairs(pairs(), points, most))
     panel.add(app::best_of(pair, points));
-  app::Series phases = app::best_of(app::BasisPair::phases(), points);
-  phases.label = "exact solution from 63 functions";
-  phases.marker = 8;  // of no pair in the same colour
+  app::Series exact = app::best_of(app::BasisPair::exact(), points);
+  exact.label = "exact solution from 63 functions";
+  exact.marker = 8;  // of no pair in the same colour
   for (app::Series one : {baseline("dense", "Fourier:Fourier, assembled system", 6, points),
-                          baseline("time_stepping", "time stepping", 7, points), std::move(phases)})
+                          baseline("time_stepping", "time stepping", 7, points), std::move(exact)})
     if (!one.x.empty()) panel.add(std::move(one));
 }
 

@@ -170,10 +170,10 @@ struct Balance {
   Balance(app::Scene scene, int functions, const solvers::CollocationOptions& options)
       : problem(app::compose_problem(with_functions(scene, functions), app::make_model(scene))),
         response(problem.respond(scene.forcing.frequency)) {
-    const auto found = problem.phases(response, options);
+    const auto found = problem.exact_near(response, options);
     if (!response.converged() || !found || !found->motion.parts)
       throw std::runtime_error("no motion near the balance with " + std::to_string(functions) + " functions");
-    phases = *found;
+    exact = *found;
   }
 
   static app::Scene with_functions(app::Scene scene, int functions) {
@@ -184,13 +184,13 @@ struct Balance {
 
   solvers::ContactProblem problem;
   solvers::PeriodicResponse response;
-  solvers::ExactNearResponse phases;
+  solvers::ExactNearResponse exact;
 };
 
 constexpr double exact = 1e-12;  // tolerance of what errors are measured against
 
 // The force of a motion about its contact, and how far balances are from its displacement.
-void draw_phases(const Files& files) {
+void draw_intervals(const Files& files) {
   constexpr int points = 2048;
   const app::Scene scene = app::load_scene(files.at(0));
   const std::vector<double> time = uniform(0.0, 1.0 - 1.0 / points, points);
@@ -209,29 +209,29 @@ void draw_phases(const Files& files) {
     const solvers::Motion motion = balance.problem.motion(balance.response, points);
     const std::string name = "balance, " + std::to_string(functions) + " functions";
     const Eigen::VectorXd error =
-        (motion.displacement - balance.phases.motion.displacement(times)).row(0).cwiseAbs();
+        (motion.displacement - balance.exact.motion.displacement(times)).row(0).cwiseAbs();
     distance.add({name, time, error});
     if (functions > 31) continue;
-    for (const solvers::ForceInterval& phase : balance.phases.motion.phases)
-      force.rectangles.push_back({phase.begin, 0.0, phase.end, 1.6});
+    for (const solvers::ForceInterval& interval : balance.exact.motion.intervals)
+      force.rectangles.push_back({interval.begin, 0.0, interval.end, 1.6});
     const Eigen::VectorXd computed = 1e-6 * motion.force.row(0);
-    const Eigen::VectorXd phases = 1e-6 * balance.phases.motion.force(times).row(0);
-    force.add({name, time, computed}).add({"exact", time, phases});
+    const Eigen::VectorXd exact = 1e-6 * balance.exact.motion.force(times).row(0);
+    force.add({name, time, computed}).add({"exact", time, exact});
     force.series.back().colour = app::Colour::black;
   }
   figure.panels = {force, distance};
-  app::write_pictures("phases", figure);
+  app::write_pictures("intervals", figure);
 }
 
-// Error of the displacement over the number of unknowns, of balances and of phases with one panel; a panel
-// for each scene.
-void draw_phase_errors(const Files& files) {
+// Error of the displacement over the number of unknowns, of balances and of exact solutions with one panel; a
+// panel for each scene.
+void draw_exact_errors(const Files& files) {
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(1024, 0.0, 1.0 - 1.0 / 1024);
   app::Figure figure{.columns = 2, .panel_width = 400, .panel_height = 320};
   for (const std::string& file : files) {
     const app::Scene scene = app::load_scene(file);
-    std::vector<double> functions, errors, unknowns, phase_errors;
-    const Eigen::MatrixXd motion = Balance(scene, 63, {.tolerance = exact}).phases.motion.displacement(times);
+    std::vector<double> functions, errors, unknowns, exact_errors;
+    const Eigen::MatrixXd motion = Balance(scene, 63, {.tolerance = exact}).exact.motion.displacement(times);
     for (const int number : {15, 31, 63, 127, 255, 511, 1023}) {
       solvers::ContactProblem problem =
           app::compose_problem(Balance::with_functions(scene, number), app::make_model(scene));
@@ -245,8 +245,8 @@ void draw_phase_errors(const Files& files) {
     for (const int nodes : {6, 8, 10, 12, 14, 16, 20, 24, 28, 32}) {
       const Balance balance(scene, 63,
                             {.tolerance = 1e-15, .nodes = nodes, .max_nodes = nodes, .max_panels = 1});
-      unknowns.push_back(balance.phases.motion.unknowns);
-      phase_errors.push_back((balance.phases.motion.displacement(times) - motion).norm() / motion.norm());
+      unknowns.push_back(balance.exact.motion.unknowns);
+      exact_errors.push_back((balance.exact.motion.displacement(times) - motion).norm() / motion.norm());
     }
     app::Panel& panel =
         figure.add_panel(scene.contact.law == "rigid" ? "rigid obstacle" : scene.contact.law + " law");
@@ -255,7 +255,7 @@ void draw_phase_errors(const Files& files) {
         .label = "Relative error of the displacement", .lower = 1e-15, .upper = 1.0, .logarithmic = true};
     panel.y.tick_format = "10^{%L}";
     panel.add({"harmonic balance", functions, errors, app::SeriesStyle::line_points})
-        .add({"exact", unknowns, phase_errors, app::SeriesStyle::line_points});
+        .add({"exact", unknowns, exact_errors, app::SeriesStyle::line_points});
     panel.series.back().colour = app::Colour::black;
   }
   app::write_pictures("phase_errors", figure);
@@ -301,7 +301,7 @@ void draw_stiff_stops(const Files& files) {
       scene.contact.values = {{"stiffness", stiffness}};
       solvers::ContactProblem problem =
           app::compose_problem(Balance::with_functions(scene, 63), model).over_periods(rigid.periods);
-      const auto found = problem.phases(
+      const auto found = problem.exact_near(
           frequency,
           solvers::Motion{with_penetrations(motion, times, gap, std::sqrt(stiffness * mobility)), {}, {}},
           {.tolerance = 1e-9});
@@ -343,15 +343,15 @@ int main(int count, char** arguments) try {
                                                               {"symbols", draw_symbols},
                                                               {"laws", draw_laws},
                                                               {"multipliers", draw_multipliers},
-                                                              {"phases", draw_phases},
-                                                              {"phase_errors", draw_phase_errors},
+                                                              {"intervals", draw_intervals},
+                                                              {"phase_errors", draw_exact_errors},
                                                               {"stiff_stops", draw_stiff_stops},
                                                               {"impacts_of_bars", write_impacts_of_bars}};
   const auto figure = figures.find(count > 1 ? arguments[1] : "");
   if (figure == figures.end()) {
     std::fprintf(
         stderr,
-        "usage: theory_figures bases|regularity|symbols|laws, multipliers|phases|impacts_of_bars SCENE, or "
+        "usage: theory_figures bases|regularity|symbols|laws, multipliers|intervals|impacts_of_bars SCENE, or "
         "phase_errors|stiff_stops SCENE...\n");
     return 2;
   }

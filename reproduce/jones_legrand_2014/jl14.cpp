@@ -102,7 +102,7 @@ std::vector<app::Response> Case::solve_all(bool whole_structure) {
   return responses;
 }
 
-app::Response by_phases(const app::Scene& scene, int structure_points) {
+app::Response exact_solution(const app::Scene& scene, int structure_points) {
   app::ResponseOptions options;
   options.structure_points = structure_points;
   app::Response motion = app::exact_response(scene, options);

@@ -76,7 +76,7 @@ class Case {
 };
 
 /// The motion of a scene with time.method = "exact". Throws report::NotConverged.
-app::Response by_phases(const app::Scene& scene, int structure_points = 0);
+app::Response exact_solution(const app::Scene& scene, int structure_points = 0);
 
 /// One time history of the tip, such as &app::Response::velocity, of every response; missing values where it
 /// has not converged.

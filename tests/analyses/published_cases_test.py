@@ -11,7 +11,7 @@ import wavebalance as wb
     ("case1", 1.014506e-3, 1.438608e-3, 0.9316321e-3, 0.2902, 0.2396),
     ("case2", 15.20671e-3, 16.26369e-3, 11.47116e-3, 5.694, 0.1069),
 ])
-def test_contact_phases_meet_the_reference(case, largest, largest_modulus, rms, force_ratio, contact_fraction, scenes):
+def test_exact_solutions_meet_the_reference(case, largest, largest_modulus, rms, force_ratio, contact_fraction, scenes):
     scene = tomllib.loads((scenes / "jones_legrand_2014" / f"{case}.toml").read_text())
     record = wb.run({**scene, "time": {"method": "exact"}}, {"analysis.output_points": 65536})
     assert record.converged, record.status

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SOURCES = [path for room in ("app", "contact", "fem", "python", "reproduce", "solvers", "spectral", "wavelets")
            for path in sorted((ROOT / room).rglob("*.[ch]pp")) if "tests" not in path.parts]
 TOKEN = re.compile(r'(?P<comment>//[^\n]*|/\*.*?\*/)|(?P<literal>"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\])+\')', re.S)
-# Types of keys and columns that users read: special_points, phases.
+# Types of keys and columns that users read: special_points.
 KEPT = {"SpecialPoint", "SpecialPointType", "ModeSpecialPoint", "Piece", "Pieces"}
 
 
@@ -29,6 +29,13 @@ def test_types_have_names_of_the_field():
     old = re.compile(r"\b(?:struct|class) (\w*(?:Phase|Settl|Tongue|Stretch|Piece|ContactFree|Special)\w*)")
     assert {(str(path), name) for path, (code, _) in PARTS.items() for name in old.findall(code)
             if name not in KEPT} == set()
+
+
+def test_code_calls_contact_intervals_and_exact_solutions_by_their_names():
+    old = re.compile(r"\b(?!phases_status\b)\w*phases\w*")  # of a column
+    angles = ("loads.hpp", "loads.cpp", "periodic_stiffness_law.cpp")
+    assert {(str(path), name) for path, (code, _) in PARTS.items() for name in old.findall(code)
+            if path.name not in angles} == set()
 
 
 def test_files_and_rooms_have_names_of_the_field():

@@ -102,7 +102,7 @@ def test_panels_have_axes_curves_and_the_gap(response):
 
 
 @pytest.mark.parametrize("overrides, shaded", [({}, True), ({"analysis.phases": False}, False)])
-def test_each_panel_shades_the_phases_of_contact(solve, overrides, shaded):
+def test_each_panel_shades_the_exact_solutions_of_contact(solve, overrides, shaded):
     record, folder = solve(BAR, overrides)
     phases = record.summary["phases"] if shaded else {"begin": [], "end": []}
     lengths = np.subtract(phases["end"], phases["begin"])

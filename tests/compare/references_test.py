@@ -76,7 +76,7 @@ def test_the_reference_with_a_loss_factor_is_a_refined_balance_with_the_reason()
     assert summary["reference_error"] < summary["reference_force_error"] < 1e-1
 
 
-def test_contact_phases_have_errors_that_fall_with_the_tolerance_and_are_not_below_that_of_the_reference(published):
+def test_exact_solutions_have_errors_that_fall_with_the_tolerance_and_are_not_below_that_of_the_reference(published):
     _, found, _ = published("case2")
     rows = rows_of(found.table, trial="phases")
     assert len(rows) >= len(TOLERANCES)

@@ -77,12 +77,12 @@ def test_a_recommendation_holds_when_it_is_pasted(elastic):
     assert elastic.summary["pairs"]["order"][0] > 1.5
 
 
-def test_contact_phases_are_beside_the_pairs_and_have_no_order(elastic):
+def test_exact_solutions_are_beside_the_pairs_and_have_no_order(elastic):
     last = rows_of(elastic.summary["pairs"])[-1]
     assert last["trial"] == "phases" and last["converged"] >= 2 and np.isnan(last["order"])
 
 
-def test_the_reference_of_a_rigid_bar_is_contact_phases(scenes):
+def test_the_reference_of_a_rigid_bar_is_exact_solutions(scenes):
     scene = scenes / "jones_legrand_2014" / "case1_rigid.toml"
     found = wb.compare(scene, pairs="fourier:fourier", error="displacement", budget=10.0)
     assert found.summary["reference"] == "phases"

@@ -82,7 +82,7 @@ def test_a_contact_that_lifts_off_has_the_motion_of_the_exact_one(lift_off):
     assert multiplier == pytest.approx(0.63913085, abs=1e-4)
 
 
-def test_a_response_says_how_far_it_is_from_the_motion_of_the_structure_and_its_phases(lift_off):
+def test_a_response_says_how_far_it_is_from_the_motion_of_the_structure_and_its_exact_solutions(lift_off):
     # Against event-driven exact motions.
     summary, phases = lift_off.summary, lift_off.summary["phases"]
     assert summary["phases_status"] == "converged" and summary["stability_by"] == "phases"
@@ -95,7 +95,7 @@ def test_a_response_says_how_far_it_is_from_the_motion_of_the_structure_and_its_
 
 
 @pytest.mark.parametrize("how", ["time.method=exact", "time.tolerance=1e-9"])
-def test_by_phases_a_contact_has_the_work_and_the_shares_of_the_exact_motion(solve, how):
+def test_by_exact_solutions_a_contact_has_the_work_and_the_shares_of_the_exact_motion(solve, how):
     summary = solve("lift_off.toml", how, unset=BASES).summary
     assert summary["solved_by"] == "exact" and summary["stability"] == "stable"
     assert summary["friction_work_J"] == pytest.approx(0.08956782539, abs=1e-9 * 0.0896)
@@ -103,7 +103,7 @@ def test_by_phases_a_contact_has_the_work_and_the_shares_of_the_exact_motion(sol
     assert summary["friction"]["stick_fraction"][0] == pytest.approx(0.3296863, abs=1e-8)
 
 
-def test_by_phases_other_laws_are_taken_beside(folder, changed, monkeypatch):
+def test_by_exact_solutions_other_laws_are_taken_beside(folder, changed, monkeypatch):
     monkeypatch.chdir(folder)
     stop = '[[contact.pairs]]\ndofs = [1]\nlaw = "linear"\nstiffness = 5.0\ngap = 1.0\n[forcing]'
     text = changed((folder / "lift_off.toml").read_text(), ("[forcing]", stop))

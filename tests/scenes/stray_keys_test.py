@@ -31,7 +31,7 @@ def test_bases_are_refused_where_motions_are_integrated(refused, law, key):
 
 
 @pytest.mark.parametrize("analysis", ["motions", "shooting"])
-def test_motions_by_phases_take_a_tolerance_and_no_bases(refused, analysis):
+def test_motions_by_exact_solutions_take_a_tolerance_and_no_bases(refused, analysis):
     assert "time.functions" in refused(LAWS["linear"], f'type = "{analysis}"\n', time="[time]\nfunctions = 31\n")
     assert not refused(LAWS["linear"], f'type = "{analysis}"\n', time="[time]\ntolerance = 1e-6\n")
 

@@ -139,7 +139,7 @@ def test_an_accelerated_base_is_the_masses_times_it(beam):
     assert abs(harmonic_of(record) - exact) <= 1e-12 * abs(exact)
 
 
-def test_it_is_described_and_taken_by_reductions_and_phases(beam):
+def test_it_is_described_and_taken_by_reductions_and_exact_solutions(beam):
     assert "6 rows without mass condensed, 6 degrees of freedom" in wb.check(SCENE)
     reduced = changed(SCENE, ('load = "f.mtx"', "load_dofs = [11]"))
     record = solved(reduced, {"structure.kept_modes": 2})

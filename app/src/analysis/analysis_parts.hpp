@@ -53,9 +53,9 @@ void note_attractor(solvers::ContactProblem& problem, const Scene& scene, const 
 
 /// Sets the numbers of an exact motion and, if there is one, what copy_motion() does. `load_periods`:
 /// forcing periods per period of the motion.
-void copy_phases(solvers::ContactProblem& problem, const solvers::ExactSolution& motion, int load_periods,
-                 const Scene& scene, const StructureModel& model, const ResponseOptions& options,
-                 Response& result);
+void copy_exact(solvers::ContactProblem& problem, const solvers::ExactSolution& motion, int load_periods,
+                const Scene& scene, const StructureModel& model, const ResponseOptions& options,
+                Response& result);
 
 /// Sets the contacts' exact motion, and its requested parts.
 void copy_motion(solvers::ContactProblem& problem, const solvers::ExactSolution& motion, const Scene& scene,

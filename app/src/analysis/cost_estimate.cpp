@@ -80,7 +80,7 @@ double balance_bytes(const Sizes& s) {
 }
 
 bool seeks_exact(const Scene& scene) {
-  return solves_exactly(scene) || scene.analysis.phases || scene.analysis.exact;
+  return solves_exactly(scene) || scene.analysis.exact_near || scene.analysis.exact;
 }
 
 /// Newton's matrix, its factors, and the influences of forces on displacements and velocities that it is made
@@ -123,7 +123,7 @@ void add_stability(const Scene& scene, const Sizes& sizes, CostEstimate& cost) {
 /// In addition to a response: Newton steps of the exact motion, whose number of unknowns is not known
 /// before. If collocation fails, event-driven integration uses as many operations again.
 void add_exact_motion(const Scene& scene, const Sizes& sizes, CostEstimate& cost) {
-  if (is_sweep(scene.analysis) || !scene.analysis.phases) return;
+  if (is_sweep(scene.analysis) || !scene.analysis.exact_near) return;
   constexpr double rate = 5e9;  // operations per second
   constexpr double least_steps = 10.0, most_steps = 60.0, nodes = 12.0, most_nodes = 24.0, cut_panels = 60.0;
   const auto step = [&](double unknowns) {

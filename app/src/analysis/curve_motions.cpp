@@ -53,9 +53,9 @@ class MotionsOfCurve {
       motion.plane =
           model_.plane * problem_.structure_motion(response, scene_.analysis.output_points).displacement;
     motion.stability.status.clear();
-    if (!motion.converged || !(scene_.analysis.stability || scene_.analysis.phases)) return motion;
+    if (!motion.converged || !(scene_.analysis.stability || scene_.analysis.exact_near)) return motion;
     std::optional<solvers::ExactNearResponse> near = solvers::exact_near(problem_, response);
-    if (near) motion.phases = {near->motion.status, near->displacement_error, near->force_error, {}, 0, {}};
+    if (near) motion.exact = {near->motion.status, near->displacement_error, near->force_error, {}, 0, {}};
     if (scene_.analysis.stability)
       motion.stability = problem_.stability(response, near ? &near->motion : nullptr);
     if (near && near->motion.parts != nullptr) motion.near = std::move(near);

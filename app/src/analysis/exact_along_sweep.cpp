@@ -58,7 +58,7 @@ std::vector<Tries> tries_along(const CurveWithExact& of, const std::vector<std::
     const std::size_t peak = peak_of(of.curve);
     add_points_beside(all.emplace_back(tries_at(of.curve, peak)), of.curve, peak, peak + 1);
   }
-  for (std::size_t i = 0; of.scene.analysis.phases && i < of.curve.points.size(); ++i)
+  for (std::size_t i = 0; of.scene.analysis.exact_near && i < of.curve.points.size(); ++i)
     all.push_back(tries_at(of.curve, i));
   return all;
 }
@@ -81,13 +81,13 @@ solvers::CollocationOptions exact_options(bool all) {
 }
 
 /// Sets `cancelled` where the observer stops it.
-ExactAlongSweep phases_of(const CurveWithExact& of, const Observer& observer, bool& cancelled) {
-  const bool all = of.scene.analysis.phases;
+ExactAlongSweep exact_of(const CurveWithExact& of, const Observer& observer, bool& cancelled) {
+  const bool all = of.scene.analysis.exact_near;
   const std::vector<std::size_t> taken = !seeks_exact_points(of.scene)
                                              ? std::vector<std::size_t>()
                                              : special_points_taken(of.special_points, all);
   solvers::ExactAlongOptions options;
-  options.phases = exact_options(all);
+  options.exact = exact_options(all);
   options.stability = all && of.scene.analysis.stability;
   if (of.has_peak) options.kept = taken.size();
   options.threads = of.model.threads;
@@ -110,22 +110,22 @@ constexpr double enough_for_special_points = 1e-6;
 /// Exact points along the main curve, with more effort if all of its exact motions are requested.
 void add_structure_points(const Scene& scene, const StructureModel& model, Sweep& sweep,
                           const Observer& observer) {
-  if (sweep.phases_cancelled) return;
+  if (sweep.exact_cancelled) return;
   const solvers::FrequencySweepOptions balance = sweep_options(scene);
   solvers::StructurePointsOptions options;
   options.from = balance.from;
   options.to = balance.to;
   options.first_step = std::min(options.first_step, balance.arc_length.initial_step);
   options.largest_step = balance.arc_length.max_step;
-  options.phases.max_operations = most_operations;
-  options.phases.max_cut_panels = most_cut_panels;
-  options.phases.tolerance = enough_for_special_points;
-  if (scene.analysis.phases) options.max_operations *= 10.0;
+  options.exact.max_operations = most_operations;
+  options.exact.max_cut_panels = most_cut_panels;
+  options.exact.tolerance = enough_for_special_points;
+  if (scene.analysis.exact_near) options.max_operations *= 10.0;
   options.threads = model.threads;
   options.observer = observer;
   sweep.structure_points = solvers::structure_points([&] { return compose_problem(scene, model); },
                                                      sweep.curve, sweep.stability.special_points, options);
-  sweep.phases_cancelled = sweep.structure_points->cancelled;
+  sweep.exact_cancelled = sweep.structure_points->cancelled;
 }
 
 }  // namespace
@@ -133,7 +133,8 @@ void add_structure_points(const Scene& scene, const StructureModel& model, Sweep
 bool seeks_exact_points(const Scene& scene) {
   constexpr int few_contacts = 6, few_unknowns = 400;
   const int contacts = contact_count(scene);
-  return scene.analysis.phases || contacts <= few_contacts || contacts * scene.time.functions <= few_unknowns;
+  return scene.analysis.exact_near || contacts <= few_contacts ||
+         contacts * scene.time.functions <= few_unknowns;
 }
 
 std::size_t peak_of(const solvers::FrequencySweep& curve) {
@@ -156,7 +157,7 @@ double error_of_vibration(const solvers::FrequencySweep& curve, const ExactAlong
   return std::abs(curve.points[peak_of(curve)].vibration - exact) / exact;
 }
 
-std::string phases_status(const ExactAlongSweep::Point& point) {
+std::string exact_status(const ExactAlongSweep::Point& point) {
   if (!point) return "not_computed";
   const bool beside = point->place > 0 && point->status == solvers::ExactStatus::converged;
   return std::string(to_string(point->status)) + (beside ? "_beside" : "");
@@ -166,45 +167,45 @@ bool was_not_found(const ExactAlongSweep::Point& point) {
   return point && point->status == solvers::ExactStatus::not_found;
 }
 
-StabilityAlong stability_along(const solvers::CurveStability& balance, const ExactAlongSweep* phases) {
+StabilityAlong stability_along(const solvers::CurveStability& balance, const ExactAlongSweep* exact) {
   StabilityAlong along;
   along.points = balance.points;
-  const bool phased = phases != nullptr && !phases->points.empty();
+  const bool with_exact = exact != nullptr && !exact->points.empty();
   for (std::size_t i = 0; i < along.points.size(); ++i) {
     solvers::PointStability& point = along.points[i];
     std::string by = "balance", status(to_string(point.status));
-    if (phased && was_not_found(phases->points[i])) {
+    if (with_exact && was_not_found(exact->points[i])) {
       point.unstable = -1;
       by = "none";
-      status = phases_status(phases->points[i]);
-    } else if (phased && phases->points[i] && phases->points[i]->stability) {
-      const solvers::MotionStability& found = *phases->points[i]->stability;
+      status = exact_status(exact->points[i]);
+    } else if (with_exact && exact->points[i] && exact->points[i]->stability) {
+      const solvers::MotionStability& found = *exact->points[i]->stability;
       point.unstable = found.unstable;
       by = "phases";
       status = found.unstable < 0 ? found.status : "converged";
     }
     if (along.status == "converged") along.status = status;
-    if (phased) along.by.push_back(std::move(by));
+    if (with_exact) along.by.push_back(std::move(by));
   }
   return along;
 }
 
 void add_exact(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer) {
-  const bool wanted = scene.analysis.stability || scene.analysis.phases;
+  const bool wanted = scene.analysis.stability || scene.analysis.exact_near;
   if (!wanted || sweep.curve.points.empty() || sweep.stopped() || !model.contact_dynamics()) return;
-  sweep.phases.push_back(phases_of({scene, model, sweep.curve, sweep.stability.special_points, true},
-                                   observer, sweep.phases_cancelled));
+  sweep.exact.push_back(exact_of({scene, model, sweep.curve, sweep.stability.special_points, true}, observer,
+                                 sweep.exact_cancelled));
   // Along curves with friction or laws of several rows, which have no exact curves by collocation, this
   // needs as long as exact ones.
   const bool followed = !has_friction(scene) && !names_coupled_rows(scene.contact);
   if (scene.analysis.stability && scene.analysis.special_points && followed && seeks_exact_points(scene))
     add_structure_points(scene, model, sweep, observer);
   for (const solvers::Branch& branch : sweep.branches) {
-    ExactAlongSweep& phases = sweep.phases.emplace_back();
-    if (branch.curve.points.empty() || sweep.phases_cancelled) continue;
+    ExactAlongSweep& exact = sweep.exact.emplace_back();
+    if (branch.curve.points.empty() || sweep.exact_cancelled) continue;
     const Scene longer = with_longer_period(scene, branch.periods);
-    phases = phases_of({longer, model, branch.curve, branch.stability.special_points, false}, observer,
-                       sweep.phases_cancelled);
+    exact = exact_of({longer, model, branch.curve, branch.stability.special_points, false}, observer,
+                     sweep.exact_cancelled);
   }
 }
 

@@ -62,8 +62,8 @@ ExactFound from_balances(const Scene& scene, const StructureModel& model, const 
       return found;
     }
     if (!balance.converged()) continue;
-    auto phases = problem.phases(balance, {.tolerance = phases_tolerance(scene), .observer = observer});
-    note(found, std::move(phases->motion), "from_balance", functions);
+    auto exact = problem.exact_near(balance, {.tolerance = exact_tolerance(scene), .observer = observer});
+    note(found, std::move(exact->motion), "from_balance", functions);
     if (!found.may_go_on()) return found;
   }
   return found;
@@ -80,7 +80,7 @@ ExactFound by_events(const Scene& scene, solvers::ContactProblem& problem, const
   solvers::TimeSteppingOptions stepping;
   stepping.observer = observer;
   solvers::ExactAttractor all = problem.exact_attractor(
-      scene.forcing.frequency, stepping, {.tolerance = phases_tolerance(scene), .observer = observer});
+      scene.forcing.frequency, stepping, {.tolerance = exact_tolerance(scene), .observer = observer});
   const solvers::Motion& last = all.settled.stepping.contacts;
   if (!last.empty())
     found.settled = {all.settled.stepping.attractor_periods, last.displacement.maxCoeff(),
@@ -101,8 +101,8 @@ void try_attractor(ExactFound& found, solvers::ContactProblem& problem, const Sc
   if (settled.cancelled || !settled.integrated() || !settled.last.displacement.allFinite()) return;
   found.settled = {settled.attractor_periods, settled.last.displacement.maxCoeff(),
                    settled.last.force.maxCoeff()};
-  auto motion = problem.phases(scene.forcing.frequency, settled,
-                               {.tolerance = phases_tolerance(scene), .observer = observer});
+  auto motion = problem.exact_near(scene.forcing.frequency, settled,
+                                   {.tolerance = exact_tolerance(scene), .observer = observer});
   if (motion && (motion->converged() || found.may_go_on()))
     note(found, *std::move(motion), "from_settling", 0);
 }
@@ -130,7 +130,7 @@ void solve_by_collocation(const Scene& scene, const StructureModel& model, const
     return;
   }
   if (found.load_periods > 1) problem = problem.over_periods(found.load_periods);
-  copy_phases(problem, *found.motion, found.load_periods, scene, model, options, result);
+  copy_exact(problem, *found.motion, found.load_periods, scene, model, options, result);
   if (!result.moves) result.settled = found.settled;
   if (events && result.stability && result.stability->unstable > 0) result.settled = found.settled;
 }
@@ -178,15 +178,15 @@ void copy_motion(solvers::ContactProblem& problem, const solvers::ExactSolution&
     note_structure(result, problem.structure_motion(
                                frequency, motion, options.structure_points,
                                {.tolerance = std::max(motion.impacts.empty() ? least_left_out : of_impacts,
-                                                      phases_tolerance(scene))}));
+                                                      exact_tolerance(scene))}));
   if (options.stability && result.converged) result.stability = problem.stability(frequency, motion);
   if (!moves_by_events(scene)) note_attractor(problem, scene, options.observer, result);
 }
 
-void copy_phases(solvers::ContactProblem& problem, const solvers::ExactSolution& motion, int load_periods,
-                 const Scene& scene, const StructureModel& model, const ResponseOptions& options,
-                 Response& result) {
-  result.phases = {motion, solvers::missing, solvers::missing};
+void copy_exact(solvers::ContactProblem& problem, const solvers::ExactSolution& motion, int load_periods,
+                const Scene& scene, const StructureModel& model, const ResponseOptions& options,
+                Response& result) {
+  result.exact = {motion, solvers::missing, solvers::missing};
   result.iterations = motion.iterations;
   result.unknowns = motion.unknowns;
   result.converged = motion.converged();
@@ -227,7 +227,7 @@ std::optional<Response> exact_to_tolerance(const Scene& scene, const StructureMo
   return found;
 }
 
-double phases_tolerance(const Scene& scene) {
+double exact_tolerance(const Scene& scene) {
   return scene.time.tolerance > 0.0 ? scene.time.tolerance : default_exact_tolerance;
 }
 

@@ -42,8 +42,8 @@ struct Measure {
  private:
   static double contact_share(const ExactSolution& motion, int contact) {
     double share = 0.0;
-    for (const solvers::ForceInterval& phase : motion.phases)
-      if (phase.contact == contact) share += phase.length();
+    for (const solvers::ForceInterval& interval : motion.intervals)
+      if (interval.contact == contact) share += interval.length();
     return share;
   }
 };
@@ -53,12 +53,11 @@ solvers::PointStability stability_of(const ExactPoint& point, const Measure& mea
   stability.status =
       point.unstable >= 0 ? solvers::StabilityStatus::converged : solvers::StabilityStatus::no_response;
   stability.unstable = point.unstable;
-  const auto phases = std::ranges::count_if(
-      point.motion.phases,
-      [&](const solvers::ForceInterval& phase) {  // contacts with friction have phases in all their states
-        return measure.laws.begins(phase.contact) && !measure.laws[phase.contact].friction();
-      });
-  stability.contacts = static_cast<int>(measure.impulses ? point.motion.impacts.size() : std::size_t(phases));
+  // Contacts with friction have intervals in all their states.
+  const auto closed = std::ranges::count_if(point.motion.intervals, [&](const auto& interval) {
+    return measure.laws.begins(interval.contact) && !measure.laws[interval.contact].friction();
+  });
+  stability.contacts = static_cast<int>(measure.impulses ? point.motion.impacts.size() : std::size_t(closed));
   return stability;
 }
 
@@ -69,7 +68,7 @@ FrictionShares friction_of(const ExactSolution& motion, const std::vector<SceneC
   return FrictionShares(std::move(each));
 }
 
-ExactAlongSweep::Point phases_of(const ExactSolution& motion) {
+ExactAlongSweep::Point exact_of(const ExactSolution& motion) {
   return solvers::ExactAtPoint{motion.status, motion.estimated_error, solvers::missing};
 }
 
@@ -134,20 +133,21 @@ void copy_motions(const ExactCurve& traced, Sweep& sweep) {
 }
 
 /// The errors and the stability of each point.
-ExactAlongSweep sweep_phases(const ExactCurve& traced, const solvers::FrequencySweep& curve, bool stability) {
-  ExactAlongSweep phases;
+ExactAlongSweep exact_of_sweep(const ExactCurve& traced, const solvers::FrequencySweep& curve,
+                               bool stability) {
+  ExactAlongSweep exact;
   for (const ExactPoint& point : traced.points) {
-    phases.points.push_back(phases_of(point.motion));
+    exact.points.push_back(exact_of(point.motion));
     if (!stability) continue;
-    solvers::MotionStability& found = phases.points.back()->stability.emplace();
+    solvers::MotionStability& found = exact.points.back()->stability.emplace();
     found.unstable = point.unstable;
     found.status = point.unstable < 0 ? "not_known" : point.unstable == 0 ? "stable" : "unstable";
-    found.by_phases = true;
+    found.is_exact = true;
   }
   if (stability)
-    for (const ExactEvent& event : traced.events) phases.special_points.push_back(phases_of(event.motion));
-  if (!traced.points.empty()) phases.peak = phases.points[peak_of(curve)];
-  return phases;
+    for (const ExactEvent& event : traced.events) exact.special_points.push_back(exact_of(event.motion));
+  if (!traced.points.empty()) exact.peak = exact.points[peak_of(curve)];
+  return exact;
 }
 
 solvers::SweepParameter parameter_of(const Scene& scene) {
@@ -157,7 +157,7 @@ solvers::SweepParameter parameter_of(const Scene& scene) {
 
 Measure measure_of(const ExactCurve& curve, const Scene& scene, const solvers::ContactLaws& laws) {
   const bool impulses =
-      solves_by_impacts(scene) && (curve.points.empty() || curve.points.front().motion.phases.empty());
+      solves_by_impacts(scene) && (curve.points.empty() || curve.points.front().motion.intervals.empty());
   return {parameter_of(scene), scene.forcing.frequency, laws, time_fractions(scene.analysis.output_points),
           impulses};
 }
@@ -196,7 +196,7 @@ Sweep sweep_of(const ExactCurve& curve, const Scene& scene, const solvers::Conta
       sweep.periods = sweep.motion_periods = static_cast<int>(
           std::lround(sweep.curve.points.front().frequency / curve.points.front().motion.frequency()));
   } else {
-    sweep.phases.push_back(sweep_phases(curve, sweep.curve, stability));
+    sweep.exact.push_back(exact_of_sweep(curve, sweep.curve, stability));
   }
   if (measure.impulses || has_impacts(scene.contact)) copy_impacts(curve, sweep.periods, sweep);
   if (has_friction(scene)) {

@@ -132,8 +132,8 @@ std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solver
 std::vector<FrictionMeasures> friction_measures(const Scene& scene, const Response& response) {
   if (!response.moves || !has_friction(scene)) return {};
   if (response.flow) return exact_measures(contacts_of(scene), *response.flow);
-  if (is_exact(response) && response.phases->motion.parts != nullptr)
-    return exact_measures(contacts_of(scene), response.phases->motion, response.contacts.points());
+  if (is_exact(response) && response.exact->motion.parts != nullptr)
+    return exact_measures(contacts_of(scene), response.exact->motion, response.contacts.points());
   return friction_measures(scene, response.contacts, response.load_frequency);
 }
 

@@ -30,7 +30,7 @@ void solve(const Scene& scene, const StructureModel& model, const ResponseOption
   if (!result.moves) return;
   result.residual = motion.residual;
   if (found.lasts()) result.solved_by = name_of(TimeMethod::exact);
-  if (found.lasts()) result.phases = {motion, solvers::missing, solvers::missing};
+  if (found.lasts()) result.exact = {motion, solvers::missing, solvers::missing};
   result.struck = motion.impacts;
   result.periods = result.motion_periods = found.load_periods;
   result.contacts = contacts_of(motion, scene.analysis.output_points);
@@ -38,7 +38,7 @@ void solve(const Scene& scene, const StructureModel& model, const ResponseOption
   if (options.structure_points > 0) copy_structure(problem, scene, options.structure_points, result);
   if (options.stability && found.multipliers.size() > 0)
     result.stability = solvers::stability_of_multipliers(found.multipliers);
-  if (result.stability) result.stability->by_phases = found.lasts();
+  if (result.stability) result.stability->is_exact = found.lasts();
 }
 
 }  // namespace

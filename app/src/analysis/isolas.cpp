@@ -73,7 +73,7 @@ bool is_on(solvers::ContactProblem& problem, const Sweep& sweep, double frequenc
     const double share =
         (frequency - points[k - 1].frequency) / (points[k].frequency - points[k - 1].frequency);
     if (!(share >= 0.0 && share <= 1.0)) continue;
-    const auto there = problem.phases(
+    const auto there = problem.exact_near(
         frequency, between(sweep.exact_motions.front()[k - 1], sweep.exact_motions.front()[k], share));
     if (!there || there->parts == nullptr) continue;
     if ((there->displacement(time_fractions(compared_points)) - wanted).norm() <= same * vibration)
@@ -95,7 +95,7 @@ void add_exact_isola(const Scene& scene, solvers::ContactProblem& problem,
                      const solvers::IsolatedCurve& found, const Observer& observer, Sweep& sweep) {
   const double at = found.found_at;
   for (const solvers::PeriodicResponse& response : problem.responses_at(found.curve, at)) {
-    const auto near = problem.phases(response);
+    const auto near = problem.exact_near(response);
     if (!near || near->motion.parts == nullptr) continue;
     if (is_on_any(problem, sweep, at, near->motion)) return;
     const auto options = exact_options(scene, observer);

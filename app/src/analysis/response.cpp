@@ -21,12 +21,12 @@ constexpr int most_panels_cut = 60;  // beyond, they have unknowns for less than
 void note_exact(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found,
                 const ResponseOptions& options, Response& result) {
   const WallClock clock;
-  solvers::CollocationOptions phases;
-  phases.max_operations = most_operations_of_exact(problem.contacts());
-  phases.max_cut_panels = most_panels_cut;
-  phases.observer = options.observer;
-  result.phases = solvers::exact_near(problem, found, {.phases = phases});
-  result.phases_seconds = clock.seconds();
+  solvers::CollocationOptions exact;
+  exact.max_operations = most_operations_of_exact(problem.contacts());
+  exact.max_cut_panels = most_panels_cut;
+  exact.observer = options.observer;
+  result.exact = solvers::exact_near(problem, found, {.exact = exact});
+  result.exact_seconds = clock.seconds();
 }
 
 /// Sets the contacts' motion, the contact with the largest force, and the motion of the whole structure if
@@ -38,9 +38,9 @@ void note_motion(solvers::ContactProblem& problem, const solvers::PeriodicRespon
   if (options.structure_points > 0)
     result.structure = problem.structure_motion(found, options.structure_points);
   if (!found.converged()) return;
-  if (options.phases) note_exact(problem, found, options, result);
+  if (options.exact) note_exact(problem, found, options, result);
   if (options.stability)
-    result.stability = problem.stability(found, result.phases ? &result.phases->motion : nullptr);
+    result.stability = problem.stability(found, result.exact ? &result.exact->motion : nullptr);
   note_attractor(problem, scene, options.observer, result);
 }
 
@@ -49,17 +49,17 @@ bool solve_exactly(solvers::ContactProblem& problem, const solvers::PeriodicResp
                    const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                    Response& result) {
   if (!options.exact_instead || found.settled == nullptr) return false;
-  solvers::CollocationOptions phases;
-  phases.max_operations = most_operations_of_exact(problem.contacts());
-  phases.observer = options.observer;
-  const auto motion = problem.phases(scene.forcing.frequency, *found.settled, phases);
+  solvers::CollocationOptions exact;
+  exact.max_operations = most_operations_of_exact(problem.contacts());
+  exact.observer = options.observer;
+  const auto motion = problem.exact_near(scene.forcing.frequency, *found.settled, exact);
   if (!motion || !motion->converged()) return false;
   result = {};
   result.solved_by = result.form = name_of(TimeMethod::exact);
   result.status = to_string(motion->status);
   result.strategy = "from_settling";
   result.attractor_periods = found.attractor_periods;
-  copy_phases(problem, *motion, solvers::load_periods(problem.condensed()), scene, model, options, result);
+  copy_exact(problem, *motion, solvers::load_periods(problem.condensed()), scene, model, options, result);
   return true;
 }
 
@@ -196,7 +196,7 @@ Response weighted_residual_response(const Scene& scene, const ResponseOptions& o
 
 Response weighted_residual_response(const Scene& scene, const StructureModel& model,
                                     const ResponseOptions& options) {
-  if (auto phases = exact_to_tolerance(scene, model, options)) return *std::move(phases);
+  if (auto exact = exact_to_tolerance(scene, model, options)) return *std::move(exact);
   const WallClock clock;
   Response result;
   result.solved_by = name_of(TimeMethod::balance);
@@ -214,7 +214,7 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
   }
   require_digits(result);
   result.wall_seconds =
-      clock.seconds() - result.phases_seconds - (result.stability ? result.stability->wall_seconds : 0.0);
+      clock.seconds() - result.exact_seconds - (result.stability ? result.stability->wall_seconds : 0.0);
   return result;
 }
 

@@ -10,7 +10,7 @@ namespace wavebalance::app {
 namespace {
 
 bool keeps_unknowns(const Scene& scene) {
-  return scene.analysis.stability || scene.analysis.phases || !scene.analysis.motion_at.empty() ||
+  return scene.analysis.stability || scene.analysis.exact_near || !scene.analysis.motion_at.empty() ||
          scene.analysis.isolas || scene.analysis.has_outputs() || has_friction(scene);
 }
 
@@ -91,7 +91,7 @@ SweepAxis sweep_axis(const Scene& scene) {
 }
 
 bool Sweep::stopped() const {
-  return interrupted() || stability.cancelled || phases_cancelled || isola_search.cancelled ||
+  return interrupted() || stability.cancelled || exact_cancelled || isola_search.cancelled ||
          outputs_cancelled || !motions_left_out.empty() || std::ranges::any_of(isolas, &Sweep::stopped) ||
          std::ranges::any_of(branches,
                              [](const auto& branch) { return branch.end == solvers::BranchEnd::cancelled; });
@@ -112,12 +112,12 @@ std::string Sweep::status() const {
   return complete && misses_part() ? "missed_part" : std::string(to_string(curve.status));
 }
 
-const ExactAlongSweep* Sweep::phases_of(std::size_t number) const {
-  return number < phases.size() ? &phases[number] : nullptr;
+const ExactAlongSweep* Sweep::exact_of(std::size_t number) const {
+  return number < exact.size() ? &exact[number] : nullptr;
 }
 
 StabilityAlong Sweep::stability_of(std::size_t number) const {
-  return stability_along(balances_of(number), phases_of(number));
+  return stability_along(balances_of(number), exact_of(number));
 }
 
 Sweep frequency_sweep(const Scene& scene, const Observer& observer) {

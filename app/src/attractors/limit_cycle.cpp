@@ -24,7 +24,7 @@ void copy_solution(const Scene& scene, const StructureModel& model, const Respon
                    LimitCycleResponse& result) {
   Response& response = result.response;
   const solvers::ExactSolution motion = std::exchange(result.found.motion, {});
-  response.phases = {motion, solvers::missing, solvers::missing};
+  response.exact = {motion, solvers::missing, solvers::missing};
   response.iterations = motion.iterations;
   response.unknowns = motion.unknowns;
   response.moves = motion.parts != nullptr;

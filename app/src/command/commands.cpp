@@ -178,7 +178,7 @@ Scene example_scene() {
   scene.contact = {.law = "exponential", .values = {{"constant", 1e8}, {"exponent", 50.0}}, .gap = 1e-3};
   scene.forcing = {.amplitude = 250e3, .frequency = 150.0};
   scene.time = {"fourier", "fourier", 63, Formulation::distributional, 256, InnerProducts::quadrature};
-  scene.analysis.phases = true;  // as of a file that leaves it out
+  scene.analysis.exact_near = true;  // as of a file that leaves it out
   return scene;
 }
 

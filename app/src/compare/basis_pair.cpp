@@ -69,11 +69,11 @@ BasisPair parse_pair(std::string_view text, const std::string& one) {
 }  // namespace
 
 std::string name_of(const BasisPair& pair) {
-  return pair.is_phases() ? pair.trial : pair.trial + ":" + pair.weight;
+  return pair.is_exact() ? pair.trial : pair.trial + ":" + pair.weight;
 }
 
 std::string label_of(const BasisPair& pair) {
-  if (pair.is_phases()) return "exact solution";
+  if (pair.is_exact()) return "exact solution";
   return basis_label(pair.trial) + ":" + basis_label(pair.weight);
 }
 
@@ -113,7 +113,7 @@ solvers::Admissibility admissibility_of(const BasisPair& pair, const Scene& scen
 }
 
 PairStyle style_of(const BasisPair& pair) {
-  if (pair.is_phases()) return {Colour::black, 7};
+  if (pair.is_exact()) return {Colour::black, 7};
   const auto& styles = named_styles();
   auto found = std::ranges::find(styles, pair, &NamedStyle::pair);
   if (found != styles.end()) return {found->colour, found->marker};
@@ -127,7 +127,7 @@ Series styled(Series series, const BasisPair& pair) {
   series.colour = style.colour;
   series.marker = style.marker;
   series.dash = style.dash;
-  if (pair.is_phases()) series.width = 2.4;
+  if (pair.is_exact()) series.width = 2.4;
   return series;
 }
 

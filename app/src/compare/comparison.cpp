@@ -10,7 +10,7 @@ namespace {
 
 constexpr int error_points = 1024;        // at which motions are compared
 constexpr double reference_share = 0.3;   // of the budget; a third of it for the exact solution
-constexpr double phases_share = 0.1;      // of the budget: the exact solution, in addition to the pairs
+constexpr double exact_share = 0.1;       // of the budget: the exact solution, in addition to the pairs
 constexpr double longest_share = 0.1;     // of the budget: a single solve
 constexpr double smallest_error = 1e-8;   // a pair that reaches it is not solved with more functions
 constexpr double stability_share = 0.05;  // of the budget, kept for the stability of what is recommended
@@ -38,10 +38,10 @@ class ResponseComparison {
       found_.from_reference = !options_.start.contacts.empty() || !found_.reference.reached_directly;
       if (found_.from_reference) measured_.start = {"the reference", found_.reference.motion, 1};
       choose_measure();
-      const std::vector<SolvePoint> phases = collocation_points();
+      const std::vector<SolvePoint> exact = collocation_points();
       found_.points = size_study(measured_, pairs.admissible, size_options());
       std::erase_if(found_.points, [](const SolvePoint& point) { return point.status == "not_run"; });
-      found_.points.insert(found_.points.begin(), phases.begin(), phases.end());
+      found_.points.insert(found_.points.begin(), exact.begin(), exact.end());
       mark_front(found_.points);
       add_recommendations();
     }
@@ -89,9 +89,9 @@ class ResponseComparison {
   std::vector<SolvePoint> collocation_points() {
     if (found_.reference.kind != "phases") return {};
     ExactStudyOptions study;
-    study.max_seconds = longest_share * phases_share * options_.budget;
+    study.max_seconds = longest_share * exact_share * options_.budget;
     study.solve = timed_solves();
-    const double end = clock_.seconds() + phases_share * options_.budget;
+    const double end = clock_.seconds() + exact_share * options_.budget;
     study.observer = [this, end](const solvers::Progress& progress) {
       return goes_on(progress.phase) && clock_.seconds() < end;
     };
@@ -100,10 +100,10 @@ class ResponseComparison {
 
   /// After the admissible pairs: the exact solution, or why it was not computed.
   void add_exact_result() {
-    const std::string& reason = found_.reference.without_phases;
-    const BasisPair phases = BasisPair::phases();
-    if (reason.empty() && points_of(phases, found_.points).empty()) return;
-    found_.pairs.push_back(pair_results({phases}, found_.points, reference_error()).front());
+    const std::string& reason = found_.reference.without_exact;
+    const BasisPair exact = BasisPair::exact();
+    if (reason.empty() && points_of(exact, found_.points).empty()) return;
+    found_.pairs.push_back(pair_results({exact}, found_.points, reference_error()).front());
     found_.pairs.back().inadmissible = reason;
   }
 

@@ -100,12 +100,12 @@ Figure error_over_time(const Comparison& comparison) {
   panel.add(pareto_front(comparison.points));
   std::vector<BasisPair> pairs;
   for (const PairResult& pair : comparison.pairs)
-    if (pair.converged > 0 && !pair.pair.is_phases()) pairs.push_back(pair.pair);
+    if (pair.converged > 0 && !pair.pair.is_exact()) pairs.push_back(pair.pair);
   constexpr std::size_t most = 6;
   for (const BasisPair& pair : leading_pairs(pairs, comparison.points, most))
     panel.add(best_of(pair, comparison.points));
-  if (!points_of(BasisPair::phases(), comparison.points).empty())
-    panel.add(best_of(BasisPair::phases(), comparison.points));
+  if (!points_of(BasisPair::exact(), comparison.points).empty())
+    panel.add(best_of(BasisPair::exact(), comparison.points));
   mark_reference(panel, comparison);
   return figure;
 }
@@ -115,7 +115,7 @@ Figure error_over_functions(const Comparison& comparison) {
   figure.title = "Error over functions, with the best number of points";
   Panel& panel = add_error_panel(figure, "Functions", comparison.measure);
   for (const PairResult& pair : comparison.pairs)
-    if (pair.converged > 0 && !pair.pair.is_phases()) panel.add(least_errors(pair.pair, comparison.points));
+    if (pair.converged > 0 && !pair.pair.is_exact()) panel.add(least_errors(pair.pair, comparison.points));
   mark_reference(panel, comparison);
   return figure;
 }

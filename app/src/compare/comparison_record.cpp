@@ -175,7 +175,7 @@ Table recommendations_table(const std::vector<Recommendation>& recommendations) 
   return tabulated(recommendations, [](const Recommendation& one) -> Summary {
     const SolvePoint none, &choice = one.choice ? *one.choice : none,
                            &fourier = one.fourier ? *one.fourier : none,
-                           &phases = one.phases ? *one.phases : none;
+                           &exact = one.exact ? *one.exact : none;
     // A number of what was not chosen is missing.
     const auto count = [](const char* name, int number) {
       return number > 0 ? Entry(name, number) : Entry(name, solvers::missing);
@@ -193,10 +193,10 @@ Table recommendations_table(const std::vector<Recommendation>& recommendations) 
             {"fourier_seconds", fourier.seconds},
             {"fourier_time_ratio", one.fourier_time_ratio()},
             {"basis_matters", to_string(one.matters)},
-            count("phases_functions", phases.functions),
-            count("phases_points", phases.points),
-            {"phases_seconds", phases.seconds},
-            {"phases_error", phases.error},
+            count("phases_functions", exact.functions),
+            count("phases_points", exact.points),
+            {"phases_seconds", exact.seconds},
+            {"phases_error", exact.error},
             {"stability", one.stability},
             {"sentences", one.sentences},
             {"time_table", one.time_table}};

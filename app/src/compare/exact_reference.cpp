@@ -37,7 +37,7 @@ NamedStatus named(solvers::ExactStatus status) {
        {slip_in_a_plane, true, "a contact has rigid friction along two tangents"},
        {law_over_period, true, "a law acts over the whole period and has no states"},
        {tolerance_missed, false, "its error stays above 1e-6"},
-       {too_many_phases, false, "it has too many unknowns"},
+       {too_many_intervals, false, "it has too many unknowns"},
        {not_found, false, "none is found near the computed response"},
        {cancelled, false, "no time was left for it"}}};
   const auto found = std::ranges::find(statuses, status, &NamedStatus::status);
@@ -100,7 +100,7 @@ ExactReference phase_reference(Guide& guide, const solvers::Observer& observer) 
   best.error = coarsest_reference;
   int levels = 0;
   for (const auto& [tolerance, nodes] : phase_levels) {
-    const auto found = guide.problem.phases(
+    const auto found = guide.problem.exact_near(
         guide.response,
         {.tolerance = tolerance, .nodes = nodes, .max_panels = most_divided, .observer = observer});
     const solvers::ExactSolution& motion = found->motion;

@@ -42,7 +42,7 @@ struct ExactReference {
   solvers::ExactSolution motion;
 };
 
-/// Phases to tolerances that fall to 1e-12, or as far as the observer lets them.
+/// Exact solutions to tolerances that fall to 1e-12, or as far as the observer lets them.
 ExactReference phase_reference(Guide& guide, const solvers::Observer& observer);
 
 /// Why the exact solution is not available for a structure; empty if it is.
@@ -51,7 +51,7 @@ std::string exact_refusal(const StructureModel& model);
 /// The exact solution at `points` uniform times.
 solvers::Motion sampled(const solvers::ExactSolution& motion, int points);
 
-/// Why the phases are not known, a phrase.
+/// Why the exact solution is not known, a phrase.
 std::string phrase_of(solvers::ExactStatus status);
 
 }  // namespace wavebalance::app

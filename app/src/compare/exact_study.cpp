@@ -16,7 +16,7 @@ constexpr double same_motion = 1e-2;         // error below which the reference'
 
 struct CollocationSolve {
   solvers::PeriodicResponse balance;
-  std::optional<solvers::ExactNearResponse> phases;
+  std::optional<solvers::ExactNearResponse> exact;
 };
 
 class ExactStudy {
@@ -39,7 +39,7 @@ class ExactStudy {
                                                             short_number(tolerance, 1), functions)});
   }
 
-  /// The one from which the phases are found soonest.
+  /// The one from which the exact solutions are found soonest.
   std::optional<SolvePoint> choose_balance() {
     std::optional<SolvePoint> best;
     for (int functions = options_.first_functions; functions <= options_.largest_functions;
@@ -64,9 +64,9 @@ class ExactStudy {
     if (!found.balance.converged()) return found;
     const solvers::ContactDynamics dynamics(problem.structure());
     const int nodes = tolerance > 1e-3 ? 4 : tolerance > 1e-5 ? 6 : 8;
-    found.phases = solvers::exact_near_response(
-        problem.condensed(), problem.laws(), found.balance, dynamics,
-        {.tolerance = tolerance, .nodes = nodes, .observer = observer}, solvers::exact_motion);
+    found.exact = solvers::exact_near_response(problem.condensed(), problem.laws(), found.balance, dynamics,
+                                               {.tolerance = tolerance, .nodes = nodes, .observer = observer},
+                                               solvers::exact_motion);
     return found;
   }
 
@@ -74,7 +74,7 @@ class ExactStudy {
     const Scene scene = discretised(measured_.scene, {"fourier", "fourier"}, functions, 4 * (functions + 1));
     SolvePoint point = unsolved_point(scene);
     point.method = "phases";
-    point.pair = BasisPair::phases();
+    point.pair = BasisPair::exact();
     point.tolerance = tolerance;
     auto problem = timed_problem(measured_, scene, options_.construction, point);
     if (!problem) return point;
@@ -86,10 +86,10 @@ class ExactStudy {
   }
 
   void note(const CollocationSolve& found, SolvePoint& point) const {
-    point.status = found.phases ? to_string(found.phases->motion.status) : to_string(found.balance.status);
-    point.converged = found.phases && found.phases->motion.converged();
+    point.status = found.exact ? to_string(found.exact->motion.status) : to_string(found.balance.status);
+    point.converged = found.exact && found.exact->motion.converged();
     if (point.converged)
-      set_errors(measured_, sampled(found.phases->motion, measured_.reference.points()), point,
+      set_errors(measured_, sampled(found.exact->motion, measured_.reference.points()), point,
                  reference_.error, reference_.force_error);
   }
 

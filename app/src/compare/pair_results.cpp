@@ -71,7 +71,7 @@ PairResult result_of(const BasisPair& pair, const std::vector<SolvePoint>& own, 
     ++result.converged;
     result.smallest_error = std::fmin(result.smallest_error, point.error);
   }
-  if (!pair.is_phases()) note_orders(result, own, reference_error);
+  if (!pair.is_exact()) note_orders(result, own, reference_error);
   result.failures = failures_of(own);
   return result;
 }

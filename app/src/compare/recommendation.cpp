@@ -147,13 +147,13 @@ std::string without_choice(const Recommendation& found, const std::vector<SolveP
 
 /// The time of the exact solution, and what a run can report of it.
 std::string exact_sentence(const Recommendation& found) {
-  const SolvePoint& phases = *found.phases;
+  const SolvePoint& exact = *found.exact;
   return fmt::format(
       " The exact solution {}: {} from harmonic balance with {} functions and {} points ({}). "
       "A run with these sizes also reports the contact intervals, the errors of the response "
       "and its stability.",
-      found.choice ? "is faster" : "reaches it", quantity(phases.seconds, "s", 3), phases.functions,
-      phases.points, errors_of(phases));
+      found.choice ? "is faster" : "reaches it", quantity(exact.seconds, "s", 3), exact.functions,
+      exact.points, errors_of(exact));
 }
 
 std::string time_table_of(const SolvePoint& point, Time time) {
@@ -208,12 +208,12 @@ void prefer_fourier(Recommendation& found, const std::vector<SolvePoint>& points
 }
 
 void note_exact(Recommendation& found, const std::vector<SolvePoint>& points) {
-  for (const SolvePoint& point : points_of(BasisPair::phases(), points))
+  for (const SolvePoint& point : points_of(BasisPair::exact(), points))
     if (point.converged && point.error <= found.error &&
-        (!found.phases || point.seconds < found.phases->seconds))
-      found.phases = point;
-  if (found.phases && found.choice && noise * found.phases->seconds >= found.choice->seconds)
-    found.phases.reset();
+        (!found.exact || point.seconds < found.exact->seconds))
+      found.exact = point;
+  if (found.exact && found.choice && noise * found.exact->seconds >= found.choice->seconds)
+    found.exact.reset();
 }
 
 }  // namespace
@@ -264,13 +264,13 @@ Recommendation recommend(const std::vector<SolvePoint>& points, double error, do
   }
   if (found.choice) note_near_misses(found, points);
   found.matters = matters_of(found, points);
-  const std::string of_phases = found.phases ? exact_sentence(found) : std::string();
+  const std::string of_exact = found.exact ? exact_sentence(found) : std::string();
   if (!found.choice) {
-    found.sentences = without_choice(found, points, reference_error) + of_phases;
+    found.sentences = without_choice(found, points, reference_error) + of_exact;
     return found;
   }
   found.sentences = first_sentence(found, is_steady(*found.choice, points, error)) + " " +
-                    second_sentence(found, points) + of_phases;
+                    second_sentence(found, points) + of_exact;
   found.time_table = time_table_of(*found.choice, time);
   return found;
 }

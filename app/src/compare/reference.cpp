@@ -84,7 +84,7 @@ class ReferenceSearch {
     const std::size_t first = guides_.size() - 1;
     if (guides_.back().estimated_error > fine_guide && !is_rigid(scene_.contact.law)) add_finer_guide();
     const std::size_t coarse = guides_.size() - 1;
-    found = phases();
+    found = exact();
     if (found) return found;
     refine_balance();
     return by_balance(guides_[model_.contacts() <= few_contacts ? coarse : first]);
@@ -153,7 +153,7 @@ class ReferenceSearch {
   }
 
   /// With rigid contact, from few functions: the force oscillates in finer balances, which then seem to
-  /// have many phases.
+  /// have many contact intervals.
   std::optional<Reference> rigid_intervals() {
     if (!is_rigid(scene_.contact.law) || !exact_refusal(model_).empty()) return std::nullopt;
     return exact_of_sizes(rigid_sizes);
@@ -161,7 +161,7 @@ class ReferenceSearch {
 
   /// From balances with so many functions each; the error of each is its distance from the one before.
   std::optional<Reference> exact_of_sizes(std::span<const int> sizes) {
-    allowed_ = phases_share * seconds_;
+    allowed_ = exact_share * seconds_;
     for (const int functions : sizes) {
       std::optional<Guide> guide = sized_guide(scene_, model_, functions, observer_, start_motion_);
       if (!guide) continue;
@@ -173,26 +173,26 @@ class ReferenceSearch {
     refused_ = !exact_refusal(model_).empty();
     std::optional<Reference> found;
     for (std::size_t i = 0; i < starts && starts > 1 && !found && !refused_ && !interrupted_; ++i)
-      found = phases_from(guides_[i], 1.0 / static_cast<double>(sizes.size()));
+      found = exact_from(guides_[i], 1.0 / static_cast<double>(sizes.size()));
     return found;
   }
 
   /// From the guide, and from finer ones where no motion is found near it.
-  std::optional<Reference> phases() {
+  std::optional<Reference> exact() {
     if (!refused_) without_exact_ = exact_refusal(model_);
     refused_ = refused_ || !without_exact_.empty();
     std::optional<Reference> found;
     for (bool more = !refused_; more && !interrupted_; more = !found && !refused_ && add_finer_guide())
-      found = phases_from(guides_.back(), 1.0);
+      found = exact_from(guides_.back(), 1.0);
     return found;
   }
 
   /// In a part of the time that is left for them.
-  std::optional<Reference> phases_from(Guide& start, double part) {
-    allowed_ = clock_.seconds() + part * std::max(0.0, phases_share * seconds_ - clock_.seconds());
+  std::optional<Reference> exact_from(Guide& start, double part) {
+    allowed_ = clock_.seconds() + part * std::max(0.0, exact_share * seconds_ - clock_.seconds());
     ExactReference found = phase_reference(start, observer_);
     const bool known = found.missing_because.empty();
-    if (known && is_of_guide(found.contacts)) return by_phases(std::move(found), start);
+    if (known && is_of_guide(found.contacts)) return by_exact(std::move(found), start);
     without_exact_ = known ? phrase_of(solvers::ExactStatus::not_found) : found.missing_because;
     refused_ = found.refused;
     return std::nullopt;
@@ -201,10 +201,10 @@ class ReferenceSearch {
   bool add_finer_guide() {
     const double error = guides_.back().estimated_error;
     return error > finest_guide &&
-           add_guide(balance(error > fine_guide ? fine_guide : finest_guide, phases_share));
+           add_guide(balance(error > fine_guide ? fine_guide : finest_guide, exact_share));
   }
 
-  Reference by_phases(ExactReference found, Guide& guide) {
+  Reference by_exact(ExactReference found, Guide& guide) {
     Reference reference =
         found_reference("phases", "the exact periodic solution", found.error, std::move(found.contacts));
     reference.force_error = found.force_error;
@@ -234,12 +234,12 @@ class ReferenceSearch {
       reference.force_error = force_error(guides_[guides_.size() - 2].contacts, last.contacts);
     if (scene_.analysis.stability && !interrupted_)
       reference.stability = counted.problem.stability(counted.response);
-    reference.without_phases = without_exact_;
+    reference.without_exact = without_exact_;
     return reference;
   }
 
   static constexpr double least_growth = 2.0, largest_growth = 8.0;  // of the times of two levels
-  static constexpr double phases_share = 1.0 / 3.0;                  // of the time
+  static constexpr double exact_share = 1.0 / 3.0;                   // of the time
   // Errors of the balances used as starts of exact solutions, and sizes of the balances before them.
   static constexpr double coarse_guide = 1e-2, fine_guide = 1e-3, finest_guide = 1e-4;
   static constexpr std::array rigid_sizes{15, 31, 63};
@@ -257,7 +257,7 @@ class ReferenceSearch {
   solvers::Observer observer_;
   std::vector<Guide> guides_;  // of falling errors
   std::string without_exact_;
-  bool refused_ = false;  // phases, wherever they start
+  bool refused_ = false;  // exact solutions, wherever they start
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ std::vector<SolvePoint> envelope(std::vector<SolvePoint> points) {
 std::vector<SolvePoint> points_of(const BasisPair& pair, const std::vector<SolvePoint>& points) {
   std::vector<SolvePoint> own;
   std::copy_if(points.begin(), points.end(), std::back_inserter(own), [&](const SolvePoint& point) {
-    return point.method == (pair.is_phases() ? "phases" : "weighted_residual") && point.pair == pair;
+    return point.method == (pair.is_exact() ? "phases" : "weighted_residual") && point.pair == pair;
   });
   return own;
 }

@@ -119,7 +119,7 @@ class CurveComparison {
     found_.peak_column = axis.quantity + "_at_max_displacement_" + axis.suffix;
   }
 
-  /// Laws whose phases change at kinks, of structures with an equation in time.
+  /// Laws whose contact intervals change at kinks, of structures with an equation in time.
   bool may_be_exact() const {
     return !is_rigid(scene_.contact.law) && !has_friction(scene_) && scene_.structure.loss_factor == 0.0 &&
            scene_.analysis.subharmonic == 1;

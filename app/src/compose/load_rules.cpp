@@ -26,9 +26,9 @@ void check_table_of_force(const Document& document, const Scene& scene) {
 }  // namespace
 
 void check_loads(const Document& document, const Scene& scene) {
-  const bool phases = solves_exactly(scene) || solves_by_impacts(scene) || moves_by_events(scene);
-  const bool balanced = !integrates_in_time(scene.analysis.type) && (phases || scene.time.tolerance == 0.0);
-  const int functions = phases ? exact_starts.back() : scene.time.functions;
+  const bool exact = solves_exactly(scene) || solves_by_impacts(scene) || moves_by_events(scene);
+  const bool balanced = !integrates_in_time(scene.analysis.type) && (exact || scene.time.tolerance == 0.0);
+  const int functions = exact ? exact_starts.back() : scene.time.functions;
   const int most = (functions - 1) / 2 / scene.analysis.subharmonic;
   for (const SceneContact& contact : contacts_of(scene))
     if (balanced && is_signal(contact) &&
@@ -37,14 +37,14 @@ void check_loads(const Document& document, const Scene& scene) {
                 {pair_section(*contact.pair) + ".stiffness_harmonics", "contact.stiffness_harmonics",
                  "time.functions"},
                 "the functions hold harmonics of the load up to " + std::to_string(most) +
-                    "; expected no more" + (phases ? "" : ", or more time.functions"));
+                    "; expected no more" + (exact ? "" : ", or more time.functions"));
   check_table_of_force(document, scene);
   for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) {
     const ForcingTerm& term = scene.forcing.terms[i];
     if (balanced && term.samples.empty() && term.harmonic > most)
       fail_rule(document, {term_section(i) + ".harmonic", "time.functions"},
                 "the functions hold harmonics of the load up to " + std::to_string(most) +
-                    "; expected no more" + (phases ? "" : ", or more time.functions"));
+                    "; expected no more" + (exact ? "" : ", or more time.functions"));
     if (!term.amplitude_table.empty() && is_over_amplitude(scene.analysis))
       fail_rule(document, {term_section(i) + ".amplitude_table"},
                 "not over the amplitude; expected amplitude alone");

@@ -150,7 +150,7 @@ void check_exact(const Document& document, const Scene& scene) {
   };
   refuse(analysis.branches, "analysis.branches");
   refuse(!analysis.motion_at.empty(), "analysis.motion_at");
-  refuse(analysis.phases, "analysis.phases");
+  refuse(analysis.exact_near, "analysis.phases");
   if (!analysis.special_points)
     fail_rule(document, {"analysis.exact", "analysis.special_points"},
               "an exact curve always finds its bifurcation and grazing points; expected "
@@ -329,13 +329,13 @@ void check_scene_rules(const Document& document, Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   const bool stepping = integrates_in_time(type), mode = type == AnalysisType::nonlinear_mode;
   const bool sweep = is_sweep(type);
-  const bool events = moves_by_events(scene), phases = solves_exactly(scene);
-  const bool balanced = !stepping && !mode && !phases && !events && !solves_by_impacts(scene);
+  const bool events = moves_by_events(scene), exact = solves_exactly(scene);
+  const bool balanced = !stepping && !mode && !exact && !events && !solves_by_impacts(scene);
   if (sweep && events) scene.analysis.exact = true;
   // The pair of the start names bases, by which an automatic mass would be redistributed.
   if (events && scene.contact.mass == ContactMass::automatic) scene.contact.mass = ContactMass::keep;
   if (sweep && scene.analysis.exact && scene.time.trial.empty()) scene.time = start_pair(scene);
-  if (phases && (!events || scene.time.tolerance > 0.0)) check_least_tolerance(document, scene);
+  if (exact && (!events || scene.time.tolerance > 0.0)) check_least_tolerance(document, scene);
   if (balanced) check_time(document, scene);
   if (mode) check_mode(document, scene);
   if (!mode && !kind_of(type).under_load) check_without_load(document, scene);

@@ -87,8 +87,8 @@ Eigen::VectorXd once_around(const Eigen::MatrixXd& rows, int row, double factor)
 std::vector<std::pair<double, double>> contact_spans(const Scene& scene, const Response& response,
                                                      const PeriodWindow& window) {
   std::vector<std::pair<double, double>> spans;
-  if (!response.phases || response.phases->motion.parts == nullptr) return spans;
-  const solvers::ExactSolution& motion = response.phases->motion;
+  if (!response.exact || response.exact->motion.parts == nullptr) return spans;
+  const solvers::ExactSolution& motion = response.exact->motion;
   double closed = 0.0;
   const auto add = [&](double begin, double end) {
     closed += end - begin;
@@ -102,8 +102,8 @@ std::vector<std::pair<double, double>> contact_spans(const Scene& scene, const R
           part.state != solvers::FrictionPart::State::open)
         add(part.begin, part.end);
   if (motion.friction.empty())
-    for (const solvers::ForceInterval& phase : motion.phases)
-      if (phase.contact == response.contact) add(phase.begin, phase.end);
+    for (const solvers::ForceInterval& interval : motion.intervals)
+      if (interval.contact == response.contact) add(interval.begin, interval.end);
   constexpr double always = 1.0 - 1e-9;
   if (closed > always) spans.clear();
   return spans;

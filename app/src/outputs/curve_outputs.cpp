@@ -50,8 +50,8 @@ std::vector<MeasuredPoint> along_curve(const Scene& scene, const StructureModel&
 /// Empty where the exact motion is not known at the peak itself.
 MeasuredPoint exact_at_peak(const Scene& scene, const StructureModel& model,
                             const std::vector<Output>& outputs, const Sweep& sweep) {
-  if (sweep.phases.empty() || scene.analysis.exact) return {};
-  const ExactAlongSweep::Point& peak = sweep.phases.front().peak;
+  if (sweep.exact.empty() || scene.analysis.exact) return {};
+  const ExactAlongSweep::Point& peak = sweep.exact.front().peak;
   if (!peak || !peak->motion || peak->place > 0) return {};
   PointMeasurer measurer(scene, model, outputs, compose_problem(scene, model), scene.analysis.subharmonic);
   return measurer(sweep.curve.points[peak_of(sweep.curve)], *peak->motion);
@@ -62,13 +62,13 @@ MeasuredPoint exact_at_peak(const Scene& scene, const StructureModel& model,
 MeasuredPoint exact_outputs(const Scene& scene, const StructureModel& model, const Response& response,
                             const std::vector<Output>& outputs) {
   const bool of_balance = response.solved_by == name_of(TimeMethod::balance);
-  if (!of_balance || !response.phases || response.phases->motion.parts == nullptr) return {};
+  if (!of_balance || !response.exact || response.exact->motion.parts == nullptr) return {};
   Scene solved = scene;
   solved.time = solved_time(scene.time, response);
   PointMeasurer measurer(solved, model, outputs, compose_problem(solved, model), response.periods);
   solvers::SweepPoint point;
   point.frequency = scene.forcing.frequency;
-  return measurer(point, response.phases->motion);
+  return measurer(point, response.exact->motion);
 }
 
 SweepOutputs measure_outputs(const Scene& scene, const StructureModel& model, Sweep& sweep,

@@ -47,7 +47,7 @@ class PointMeasurer {
   /// For an exact motion. The force of an impact is not known.
   MeasuredPoint operator()(const solvers::SweepPoint& point, const solvers::ExactSolution& motion) {
     const Eigen::VectorXd times = time_fractions(points_);
-    const bool impulses = impacts_alone_ && motion.phases.empty();
+    const bool impulses = impacts_alone_ && motion.intervals.empty();
     const solvers::Motion contacts{motion.displacement(times), {}, {}};
     solvers::CondensedProblem& problem = held_at(point);
     const LoadAt load{point.frequency, problem.load_factor(), periods_};

@@ -107,9 +107,9 @@ void warn_of_lasting_contact(Record& record, const solvers::ImpactResponse& resp
 /// contact, begin, end (fractions of the motion's period): obstacles with impacts on which a contact rests.
 Table lasting_table(const Scene& scene, const Response& response) {
   Table table({"contact", "begin", "end"});
-  if (!response.phases) return table;
+  if (!response.exact) return table;
   const std::vector<SceneContact> contacts = contacts_of(scene);
-  for (const solvers::ForceInterval& one : response.phases->motion.phases)
+  for (const solvers::ForceInterval& one : response.exact->motion.intervals)
     if (const SceneContact& contact = contacts.at(std::size_t(one.contact)); is_rigid(contact.law))
       table.append_row({std::int64_t{contact.number}, one.begin, one.end});
   return table;
@@ -118,9 +118,9 @@ Table lasting_table(const Scene& scene, const Response& response) {
 /// The largest displacement of the contact with the largest force, at the samples and at its impacts.
 double highest(const Response& response) {
   const double sampled = response.displacement().maxCoeff();
-  const bool known = response.phases && response.phases->motion.parts;
+  const bool known = response.exact && response.exact->motion.parts;
   if (!known && !response.impacts) return sampled;
-  const solvers::ExactSolution& motion = known ? response.phases->motion : response.impacts->motion;
+  const solvers::ExactSolution& motion = known ? response.exact->motion : response.impacts->motion;
   return std::max(sampled, highest_at_impacts(motion, response.contact));
 }
 

@@ -10,7 +10,7 @@ namespace {
 Table multipliers_table(const Response& response) {
   Table table({"real", "imag", "modulus"});
   const Eigen::VectorXcd multipliers =
-      response.moves ? response.phases->motion.multipliers() : Eigen::VectorXcd();
+      response.moves ? response.exact->motion.multipliers() : Eigen::VectorXcd();
   for (const std::complex<double> one : multipliers)
     table.append_row({one.real(), one.imag(), std::abs(one)});
   return table;

@@ -47,14 +47,14 @@ void append_mesh_files(std::vector<RecordFile>& files, const Moving& moving, con
   files.push_back({name + ".body.js", body_script(name, body), "the moving body of report.html"});
 }
 
-Summary motion_row(const Scene& scene, const CurveMotion& motion, const SweepAxis& axis, bool with_phases) {
+Summary motion_row(const Scene& scene, const CurveMotion& motion, const SweepAxis& axis, bool with_exact) {
   Summary row{{"file", motion.name + ".csv"}, {"at", motion.at}, {axis.column(), motion.place}};
   append_motion(row, scene, motion.contacts, motion.contact);
   row.emplace_back(quantities::unstable_multipliers,
                    motion.stability.unstable < 0 ? missing : double(motion.stability.unstable));
   row.emplace_back(quantities::residual, motion.residual);
   row.emplace_back(quantities::converged, motion.converged);
-  if (with_phases) append_exact(row, motion.phases);
+  if (with_exact) append_exact(row, motion.exact);
   return row;
 }
 
@@ -72,7 +72,7 @@ void append_motion_picture(Record& record, const Scene& scene, const Sweep& swee
   response.contact = motion.contact;
   response.periods = sweep.periods;
   if (sweep.curve.parameter == solvers::SweepParameter::frequency) response.load_frequency = motion.place;
-  response.phases = motion.near;
+  response.exact = motion.near;
   RecordPicture picture{motion.name, motion_figure(scene, response, motion.place),
                         "motion of the curve " + place};
   picture.figure.title = "Motion " + place + (motion.converged ? "" : " (NOT CONVERGED)");
@@ -84,17 +84,17 @@ void append_contact_instants(Record& record, const Scene& scene, const std::vect
   Table all;
   for (const CurveMotion& motion : motions) {
     if (!motion.near) continue;
-    const Table phases = phases_table(scene, motion.near->motion);
+    const Table exact = intervals_table(scene, motion.near->motion);
     std::vector<std::string> columns{"file"};
-    columns.insert(columns.end(), phases.columns().begin(), phases.columns().end());
+    columns.insert(columns.end(), exact.columns().begin(), exact.columns().end());
     if (all.columns().empty()) all = Table(columns);
-    for (std::size_t i = 0; i < phases.rows(); ++i) {
+    for (std::size_t i = 0; i < exact.rows(); ++i) {
       std::vector<Cell> row{motion.name + ".csv"};
-      for (const Cell& cell : phases.row(i)) row.push_back(cell);
+      for (const Cell& cell : exact.row(i)) row.push_back(cell);
       all.append_row(std::move(row));
     }
   }
-  if (!all.columns().empty()) record.add(quantities::phases, std::move(all));
+  if (!all.columns().empty()) record.add(quantities::contact_intervals, std::move(all));
 }
 
 }  // namespace
@@ -143,11 +143,11 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
                     const std::vector<CurveMotion>& motions) {
   if (scene.analysis.motion_at.empty()) return;
   const SweepAxis axis = sweep_axis(sweep);
-  const bool with_phases =
-      std::ranges::any_of(motions, [](const CurveMotion& motion) { return motion.phases.has_value(); });
+  const bool with_exact =
+      std::ranges::any_of(motions, [](const CurveMotion& motion) { return motion.exact.has_value(); });
   std::vector<Summary> rows;
   for (const CurveMotion& motion : motions) {
-    rows.push_back(motion_row(scene, motion, axis, with_phases));
+    rows.push_back(motion_row(scene, motion, axis, with_exact));
     append_motion_files(record, scene, model, {motion.contacts, motion.contact, motion.structure},
                         motion.name, "motion of the curve " + place_of(motion, axis));
     append_motion_picture(record, scene, sweep, motion, place_of(motion, axis));

@@ -17,7 +17,7 @@ std::string name_of_motion(std::size_t number) { return fmt::format("motion_{}",
 
 /// Missing with impacts only, which have impulses.
 double largest_force(const Scene& scene, const FoundMotion& one) {
-  const bool impulses = solves_by_impacts(scene) && one.found.motion.phases.empty();
+  const bool impulses = solves_by_impacts(scene) && one.found.motion.intervals.empty();
   return impulses ? missing : one.contacts.force.maxCoeff();
 }
 

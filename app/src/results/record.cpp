@@ -51,8 +51,8 @@ namespace {
 Response solved_response(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
   ResponseOptions options = response_options(scene, how.observer);
   options.stability = scene.analysis.stability;
-  options.phases = scene.analysis.phases;
-  options.exact_instead = scene.analysis.phases;
+  options.exact = scene.analysis.exact_near;
+  options.exact_instead = scene.analysis.exact_near;
   if (solves_by_impacts(scene)) return impacts_response(scene, model, options);
   if (solves_exactly(scene)) return exact_response(scene, model, options);
   if (!how.start.contacts.empty()) {

@@ -238,9 +238,9 @@ void append_free_motion(Record& record, const Scene& scene, const StructureModel
 /// The fields of the motion of the direction of contact `leading`; missing values of an empty motion.
 void append_motion(Summary& summary, const Scene& scene, const solvers::Motion& contacts, int leading);
 
-/// The phases of contact of a motion; of contacts with friction all parts of the period, by what they do in
+/// The contact intervals of a motion; of contacts with friction all parts of the period, by what they do in
 /// them.
-Table phases_table(const Scene& scene, const solvers::ExactSolution& motion);
+Table intervals_table(const Scene& scene, const solvers::ExactSolution& motion);
 
 /// The record of a curve over frequency or amplitude, with what was measured of its outputs and the motions
 /// of analysis.motion_at.
@@ -251,7 +251,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
 /// that the fraction is 1.
 void leave_out_contact_fractions(const Scene& scene, Sweep& sweep);
 
-/// The errors of a point and the status of its phases.
+/// The errors of a point and the status of its exact solution.
 void append_exact(Summary& row, const ExactAlongSweep::Point& point);
 
 /// How well the points of a curve resolve the highest of them.

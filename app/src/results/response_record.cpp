@@ -162,10 +162,10 @@ double vibration_error(const solvers::ExactSolution& motion, const Response& res
 }
 
 void append_exact(Record& record, const Scene& scene, const Response& response) {
-  const solvers::ExactNearResponse& found = *response.phases;
+  const solvers::ExactNearResponse& found = *response.exact;
   const bool known = found.motion.parts != nullptr;
   if (is_exact(response)) {
-    record.add(quantities::tolerance, phases_tolerance(scene));
+    record.add(quantities::tolerance, exact_tolerance(scene));
     record.add(quantities::estimated_error, known ? found.motion.estimated_error : missing);
     record.add("start_functions", response.start_functions);
     if (!response.form.empty())
@@ -180,10 +180,10 @@ void append_exact(Record& record, const Scene& scene, const Response& response) 
   }
   record.add("phases_estimated_error", known ? found.motion.estimated_error : missing);
   record.add("phases_unknowns", found.motion.unknowns);
-  record.add(quantities::phases, phases_table(scene, found.motion));
+  record.add(quantities::contact_intervals, intervals_table(scene, found.motion));
   const bool none = found.motion.status == solvers::ExactStatus::not_found && !is_exact(response);
   if (response.stability && !none)
-    record.add(quantities::stability_by, response.stability->by_phases ? "phases" : "balance");
+    record.add(quantities::stability_by, response.stability->is_exact ? "phases" : "balance");
   if (!none) return;
   record.warnings.emplace_back(
       "No exact periodic solution was found near this response, which satisfies the contact "
@@ -241,9 +241,9 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   append_attractor(record, scene, response);
   if (!response.form.empty()) record.add(quantities::form, response.form);
   append_rigid(record.summary, response);
-  if (response.phases)
+  if (response.exact)
     append_exact(record, scene, response);
-  else if (scene.analysis.phases && response.converged && !is_exact(response))
+  else if (scene.analysis.exact_near && response.converged && !is_exact(response))
     record.add(quantities::phases_status, "no_modes");
   if (response.stability) append_stability(record, *response.stability);
   append_attractor_from_rest(record, scene, response);

@@ -37,13 +37,13 @@ bool folds_are_known(const solvers::CurveStability& stability) {
 }
 
 /// Rows of bifurcation and grazing points, each after `first`. Where the structure has no motion near there
-/// is no multiplier. `phases` belong to the curve, and are empty if they were computed only for others.
+/// is no multiplier. `exact` belongs to the curve, and is empty if computed only for others.
 void append_special_points(std::vector<Summary>& rows, const Summary& first, const Sweep& sweep,
-                           const solvers::CurveStability& stability, const ExactAlongSweep* phases) {
+                           const solvers::CurveStability& stability, const ExactAlongSweep* exact) {
   for (std::size_t i = 0; i < stability.special_points.size(); ++i) {
     const solvers::SpecialPoint& point = stability.special_points[i];
-    const bool sought = phases != nullptr && i < phases->special_points.size();
-    const ExactAlongSweep::Point near = sought ? phases->special_points[i] : ExactAlongSweep::Point();
+    const bool sought = exact != nullptr && i < exact->special_points.size();
+    const ExactAlongSweep::Point near = sought ? exact->special_points[i] : ExactAlongSweep::Point();
     const bool none = was_not_found(near);
     const SweepAxis axis = sweep_axis(sweep);
     Summary& row = rows.emplace_back(first);
@@ -54,13 +54,13 @@ void append_special_points(std::vector<Summary>& rows, const Summary& first, con
     row.emplace_back("multiplier_imag", none ? missing : point.multiplier.imag());
     row.emplace_back(quantities::max_displacement, point.max_displacement);
     row.emplace_back(quantities::status, point.located ? "located" : "bracketed");
-    if (phases != nullptr) append_exact(row, near);
+    if (exact != nullptr) append_exact(row, near);
   }
 }
 
 Table table_of(const Sweep& sweep) {
   std::vector<Summary> rows;
-  append_special_points(rows, {}, sweep, sweep.stability, sweep.phases_of(0));
+  append_special_points(rows, {}, sweep, sweep.stability, sweep.exact_of(0));
   return sweep.structure_points ? with_structure_points(std::move(rows), sweep) : table_of(rows);
 }
 
@@ -202,13 +202,13 @@ void append_isolas_found(Record& record, const Sweep& sweep) {
                "max_displacement_m", "max_contact_force_N", "points", "points_unstable", "status",
                "stability"});
   std::vector<Summary> special;
-  const ExactAlongSweep none, *without = sweep.phases.empty() ? nullptr : &none;
+  const ExactAlongSweep none, *without = sweep.exact.empty() ? nullptr : &none;
   for (std::size_t i = 0; i < sweep.isolas.size(); ++i) {
     const Sweep& isola = sweep.isolas[i];
     table.append_row(isola_row(isola, i + 1));
     warn_of_isola(record, isola, i + 1);
     append_special_points(special, {{"isola", i + 1}}, isola, isola.stability,
-                          without != nullptr && isola.phases_of(0) != nullptr ? isola.phases_of(0) : without);
+                          without != nullptr && isola.exact_of(0) != nullptr ? isola.exact_of(0) : without);
   }
   record.add(quantities::isolas, table);
   record.add("special_points_of_isolas", table_of(special));
@@ -272,7 +272,7 @@ void append_branches(Record& record, const Sweep& sweep) {
   std::vector<Summary> special;
   for (std::size_t i = 0; i < sweep.branches.size(); ++i)
     append_special_points(special, {{"branch", i + 1}}, sweep, sweep.branches[i].stability,
-                          sweep.phases_of(i + 1));
+                          sweep.exact_of(i + 1));
   record.add("special_points_of_branches", table_of(special));
 }
 

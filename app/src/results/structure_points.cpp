@@ -37,7 +37,8 @@ Table table_of(const solvers::StructurePoints& points, const SweepAxis& axis) {
     const solvers::ExactEvent& event = points.events[i];
     table.append_row(row_of(to_string(event.type), event.value, event.multiplier.real(),
                             event.multiplier.imag(), event.motion.displacement(instants()).maxCoeff(),
-                            event.motion.phases.size(), event.motion.estimated_error, copies_of(points, i)));
+                            event.motion.intervals.size(), event.motion.estimated_error,
+                            copies_of(points, i)));
   }
   return table;
 }

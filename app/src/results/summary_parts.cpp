@@ -161,7 +161,7 @@ void append_period(Record& record, int periods, int motion_periods) {
 }
 
 /// Contacts with friction: all parts of the period, by state.
-Table phases_table(const Scene& scene, const solvers::ExactSolution& motion) {
+Table intervals_table(const Scene& scene, const solvers::ExactSolution& motion) {
   const std::vector<SceneContact> places = contact_places(scene);
   const auto number_of = [&](int row) { return std::int64_t{places.at(std::size_t(row)).number}; };
   const bool named = !contact_labels(scene).empty();
@@ -174,8 +174,8 @@ Table phases_table(const Scene& scene, const solvers::ExactSolution& motion) {
     if (named) row.emplace_back("name", whole_name_of(places.at(std::size_t(contact))));
   };
   if (motion.friction.empty()) {
-    for (const solvers::ForceInterval& phase : motion.phases)
-      if (places.at(std::size_t(phase.contact)).place == 0) add(phase.contact, "", phase.begin, phase.end);
+    for (const solvers::ForceInterval& interval : motion.intervals)
+      if (places.at(std::size_t(interval.contact)).place == 0) add(interval.contact, "", interval.begin, interval.end);
     return rows.empty() ? Table({"contact", "begin", "end"}) : table_of(rows);
   }
   for (const solvers::FrictionAlong& contact : motion.friction)

@@ -22,7 +22,7 @@ double force_error(const ExactAlongSweep::Point& point) { return point ? point->
 /// Over the curve and its branches.
 void append_exact_of_points(Record& record, const Sweep& sweep) {
   std::vector<ExactAlongSweep::Point> points;
-  for (const ExactAlongSweep& curve : sweep.phases)
+  for (const ExactAlongSweep& curve : sweep.exact)
     points.insert(points.end(), curve.points.begin(), curve.points.end());
   if (points.empty()) return;
   const auto found = std::ranges::count_if(points, [](const ExactAlongSweep::Point& point) {
@@ -45,9 +45,9 @@ void append_exact_of_points(Record& record, const Sweep& sweep) {
 
 /// "the fold at 1312.3 Hz", of those without a motion near.
 void append_places(std::vector<std::string>& places, const std::vector<solvers::SpecialPoint>& points,
-                   const ExactAlongSweep& phases, const Sweep& sweep) {
-  for (std::size_t i = 0; i < phases.special_points.size(); ++i) {
-    if (!was_not_found(phases.special_points[i])) continue;
+                   const ExactAlongSweep& exact, const Sweep& sweep) {
+  for (std::size_t i = 0; i < exact.special_points.size(); ++i) {
+    if (!was_not_found(exact.special_points[i])) continue;
     const std::string type(to_string(points[i].type));
     places.push_back(
         fmt::format("the {} at {}", spaced_words(type),
@@ -57,9 +57,9 @@ void append_places(std::vector<std::string>& places, const std::vector<solvers::
 
 void warn_of_places(Record& record, const Sweep& sweep) {
   std::vector<std::string> places;
-  if (was_not_found(sweep.phases.front().peak)) places.emplace_back("the peak");
-  for (std::size_t i = 0; i < sweep.phases.size(); ++i)
-    append_places(places, sweep.balances_of(i).special_points, sweep.phases[i], sweep);
+  if (was_not_found(sweep.exact.front().peak)) places.emplace_back("the peak");
+  for (std::size_t i = 0; i < sweep.exact.size(); ++i)
+    append_places(places, sweep.balances_of(i).special_points, sweep.exact[i], sweep);
   if (places.empty()) return;
   warn(record,
        "No exact periodic solution was found near these points of the curve: {}. Whether the "
@@ -68,9 +68,9 @@ void warn_of_places(Record& record, const Sweep& sweep) {
 }
 
 void append_exact(Record& record, const Sweep& sweep) {
-  if (sweep.phases.empty()) return;
-  const ExactAlongSweep::Point& peak = sweep.phases.front().peak;
-  record.add(quantities::phases_status, phases_status(peak));
+  if (sweep.exact.empty()) return;
+  const ExactAlongSweep::Point& peak = sweep.exact.front().peak;
+  record.add(quantities::phases_status, exact_status(peak));
   record.add(quantities::error_of_displacement, displacement_error(peak));
   record.add(quantities::error_of_force, force_error(peak));
   append_exact_of_points(record, sweep);
@@ -94,9 +94,9 @@ void append_vibration(Record& record, const Scene& scene, const Sweep& sweep) {
   record.add(quantities::rms_vibration, largest_of(curve.points, &SweepPoint::rms_vibration));
   record.add(quantities::peak_value_resolution, resolution.value);
   record.add(quantities::peak_place_resolution, resolution.place);
-  if (!sweep.phases.empty() && !scene.analysis.exact)
+  if (!sweep.exact.empty() && !scene.analysis.exact)
     record.add(quantities::error_of_vibration,
-               error_of_vibration(curve, sweep.phases.front().peak, scene.analysis.output_points));
+               error_of_vibration(curve, sweep.exact.front().peak, scene.analysis.output_points));
 }
 
 void append_friction_along(Record& record, const Sweep& sweep) {
@@ -146,7 +146,7 @@ int unknowns_of(const Scene& scene, const StructureModel& model, const Sweep& sw
 void append_exact(Summary& row, const ExactAlongSweep::Point& point) {
   row.emplace_back(quantities::error_of_displacement, displacement_error(point));
   row.emplace_back(quantities::error_of_force, force_error(point));
-  row.emplace_back(quantities::phases_status, phases_status(point));
+  row.emplace_back(quantities::phases_status, exact_status(point));
 }
 
 PeakResolution peak_resolution(std::span<const double> places, std::span<const double> values,

@@ -56,7 +56,7 @@ Summary point_row(const SweepPoint& point, solvers::SweepParameter parameter, co
 
 /// Additional columns of the table of a sweep.
 struct MoreColumns {
-  bool stability, phases, branches, isolas;
+  bool stability, exact, branches, isolas;
   /// The contact degrees of freedom with separate columns, or none.
   std::vector<SceneContact> contacts = {};
 };
@@ -114,9 +114,9 @@ struct CurveRows {
     if (more.branches) put("branch", number);
     if (more.branches) put("period", periods);
     if (more.isolas) put(quantities::isola, isola);
-    if (!more.phases) return row;
-    const ExactAlongSweep* phases = sweep.phases_of(number);
-    append_exact(row, phases == nullptr ? ExactAlongSweep::Point() : at(phases->points, i));
+    if (!more.exact) return row;
+    const ExactAlongSweep* exact = sweep.exact_of(number);
+    append_exact(row, exact == nullptr ? ExactAlongSweep::Point() : at(exact->points, i));
     if (more.stability) put(quantities::stability_by, i < stability.by.size() ? stability.by[i] : "none");
     return row;
   }
@@ -142,9 +142,9 @@ Table sweep_table(const solvers::FrequencySweep& curve) {
 }
 
 Table sweep_table(const Sweep& sweep, bool with_branches, const std::vector<SceneContact>& contacts) {
-  const ExactAlongSweep* phases = sweep.phases_of(0);
+  const ExactAlongSweep* exact = sweep.exact_of(0);
   const MoreColumns more{with_branches || !sweep.stability.points.empty(),
-                         phases != nullptr && !phases->points.empty(), with_branches,
+                         exact != nullptr && !exact->points.empty(), with_branches,
                          !sweep.isola_search.frequencies.empty(), contacts};
   const CurveRows first{sweep, more};
   Table table(columns_of(first(first.curve.points.size())));

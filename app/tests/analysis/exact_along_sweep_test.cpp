@@ -1,4 +1,4 @@
-// Source of the stability of a point of a curve. Records: tests/analyses/phases_of_curves_test.py.
+// Source of the stability of a point of a curve. Records: tests/analyses/exact_near_curves_test.py.
 #include "wavebalance/app/analysis/sweep.hpp"
 
 #include <gtest/gtest.h>
@@ -9,18 +9,18 @@
 namespace wavebalance::app {
 namespace {
 
-TEST(PhasesOfASweep, DecideTheVerdictPointByPoint) {
+TEST(ExactSolutionsOfASweep, DecideTheVerdictPointByPoint) {
   using solvers::ExactStatus, solvers::ExactAtPoint, solvers::StabilityStatus;
   solvers::CurveStability balance;
   balance.points.resize(4);
   for (auto& point : balance.points) point = {StabilityStatus::converged, 3, 1, 1, 1};
-  ExactAlongSweep phases;
-  phases.points.resize(4);
-  phases.points[0] =
+  ExactAlongSweep exact;
+  exact.points.resize(4);
+  exact.points[0] =
       ExactAtPoint{ExactStatus::converged, 1e-3, 1e-2, solvers::MotionStability{"stable", 0}, 0};
-  phases.points[1] = ExactAtPoint{ExactStatus::not_found};
-  phases.points[2] = ExactAtPoint{ExactStatus::structural_damping};
-  const StabilityAlong along = stability_along(balance, &phases);
+  exact.points[1] = ExactAtPoint{ExactStatus::not_found};
+  exact.points[2] = ExactAtPoint{ExactStatus::structural_damping};
+  const StabilityAlong along = stability_along(balance, &exact);
   EXPECT_EQ(along.by, (std::vector<std::string>{"phases", "none", "balance", "balance"}));
   EXPECT_EQ(along.points[0].unstable, 0);
   EXPECT_EQ(along.points[1].unstable, -1);

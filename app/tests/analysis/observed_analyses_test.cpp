@@ -77,7 +77,7 @@ TEST(InterruptedSweep, SaysSoOnABranch) {
             std::vector<std::string>{"interrupted"});
 }
 
-TEST(InterruptedSweep, MarksThePointsWithoutPhases) {
+TEST(InterruptedSweep, MarksThePointsWithoutExactSolutions) {
   int calls = 0;
   AnalysisOptions how;
   how.threads = 1;

@@ -26,7 +26,7 @@ std::vector<std::string> scenes_of_laws_and_analyses() {
       "law = \"coulomb\"\nfriction = 0.3\nnormal_load = 3.0\ntangential_stiffness = 1e4",
       "law = \"coulomb\"\nfriction = 0.3\nnormal_load = 3.0"};
   const std::string bases = "[time]\ntrial = \"fourier\"\nweight = \"fourier\"\nfunctions = 32\n",
-                    phases = "[time]\nmethod = \"exact\"\n", tolerance = "[time]\ntolerance = 1e-2\n",
+                    exact = "[time]\nmethod = \"exact\"\n", tolerance = "[time]\ntolerance = 1e-2\n",
                     load = "[forcing]\nload_dofs = [1]\n", amplitude = "amplitude = 5.0\n",
                     frequency = "frequency = 3.0\n";
   const std::string sweep = "type = \"frequency_sweep\"\nfrequency_from = 3.0\nfrequency_to = 6.0\n";
@@ -39,7 +39,7 @@ std::vector<std::string> scenes_of_laws_and_analyses() {
             "[analysis]\ntype = \"amplitude_sweep\"\namplitude_from = 1.0\namplitude_to = 2.0\n"};
   };
   std::vector<std::string> scenes, parts{"[analysis]\ntype = \"nonlinear_mode\"\n"};
-  for (const std::string& time : {bases, std::string(), phases, tolerance})
+  for (const std::string& time : {bases, std::string(), exact, tolerance})
     for (const std::string& one : analyses(time)) parts.push_back(one);
   for (const char* type : {"time_stepping", "motions"})
     parts.push_back(load + amplitude + frequency + "[analysis]\ntype = \"" + type + "\"\n");

@@ -26,7 +26,7 @@ TEST(Comparison, ThatIsInterruptedHoldsWhatWasMeasuredSoFar) {
   EXPECT_EQ(found.status(), "interrupted");
   EXPECT_FALSE(found.points.empty());
   EXPECT_LT(found.points.size(), whole.points.size());
-  for (const SolvePoint& point : found.points) EXPECT_LE(point.functions, point.pair.is_phases() ? 1023 : 16);
+  for (const SolvePoint& point : found.points) EXPECT_LE(point.functions, point.pair.is_exact() ? 1023 : 16);
   const ComparisonRecord record = comparison_record(scene_of(), found);
   EXPECT_EQ(value_of<std::string>(record.summary, "status"), "interrupted");
   EXPECT_EQ(record.table.rows(), found.points.size());

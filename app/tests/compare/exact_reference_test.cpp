@@ -52,7 +52,7 @@ TEST(ExactStudy, FindsTheMotionFromABalanceOfThreeFunctions) {
   const Scene scene = jones_legrand("case1");
   constexpr double seconds = 5.0;
   const Reference reference = find_reference(scene, make_model(scene), error_points, seconds);
-  EXPECT_TRUE(reference.stability.by_phases);
+  EXPECT_TRUE(reference.stability.is_exact);
   ExactStudyOptions options;
   options.solve = {.budget = 0.0, .least = 1, .max_seconds = 0.0};
   options.tolerances = {1e-8};

@@ -184,25 +184,25 @@ TEST(Recommendation, SaysThatTheBasisMattersLittleWhereFourierMissesTheErrorByLi
   EXPECT_EQ(recommended(points, 1e-2).matters, BasisMatters::much);
 }
 
-SolvePoint by_phases(double seconds, double error) {
-  SolvePoint point = solved(BasisPair::phases(), 31, seconds, error);
+SolvePoint exact_point(double seconds, double error) {
+  SolvePoint point = solved(BasisPair::exact(), 31, seconds, error);
   point.method = "phases";
   point.tolerance = 1e-8;
   return point;
 }
 
-TEST(Recommendation, NamesContactPhasesWhereTheyAreFasterAndKeepsThePair) {
+TEST(Recommendation, NamesExactSolutionsWhereTheyAreFasterAndKeepsThePair) {
   const std::vector<SolvePoint> pairs{solved(fourier, 63, 8e-4, 5e-7)};
   const auto with = [&](double seconds, double error) {
     std::vector<SolvePoint> points = pairs;
-    points.push_back(by_phases(2.0 * seconds, 1e-12));
-    points.push_back(by_phases(seconds, error));
+    points.push_back(exact_point(2.0 * seconds, 1e-12));
+    points.push_back(exact_point(seconds, error));
     return recommended(points, 1e-6);
   };
   const auto faster = with(1e-4, 1e-8);
-  ASSERT_TRUE(faster.choice && faster.phases);
+  ASSERT_TRUE(faster.choice && faster.exact);
   EXPECT_EQ(faster.choice->pair, fourier);
-  EXPECT_EQ(faster.phases->seconds, 1e-4);
+  EXPECT_EQ(faster.exact->seconds, 1e-4);
   EXPECT_NE(
       faster.sentences.find(
           " The exact solution is faster: 100 µs from harmonic balance with 31 functions and 64 points (error "
@@ -210,20 +210,20 @@ TEST(Recommendation, NamesContactPhasesWhereTheyAreFasterAndKeepsThePair) {
       std::string::npos)
       << faster.sentences;
   for (const auto& found : {with(8e-4, 1e-8), with(1e-2, 1e-8), with(4.1e-4, 1e-5)}) {
-    EXPECT_FALSE(found.phases);
+    EXPECT_FALSE(found.exact);
     EXPECT_EQ(found.sentences.find("phases"), std::string::npos);
   }
 }
 
-TEST(Recommendation, NamesContactPhasesWhereNoPairReachesTheError) {
-  const auto found = recommended({solved(fourier, 63, 8e-4, 5e-3), by_phases(1e-2, 1e-8)}, 1e-6);
+TEST(Recommendation, NamesExactSolutionsWhereNoPairReachesTheError) {
+  const auto found = recommended({solved(fourier, 63, 8e-4, 5e-3), exact_point(1e-2, 1e-8)}, 1e-6);
   EXPECT_FALSE(found.choice);
-  ASSERT_TRUE(found.phases);
+  ASSERT_TRUE(found.exact);
   EXPECT_NE(found.sentences.find(" The exact solution reaches it: 10 ms from harmonic balance"),
             std::string::npos)
       << found.sentences;
   // Not known if the reference lacks it.
-  EXPECT_FALSE(recommended({by_phases(1e-2, 1e-8)}, 1e-6, 1e-6).phases);
+  EXPECT_FALSE(recommended({exact_point(1e-2, 1e-8)}, 1e-6, 1e-6).exact);
 }
 
 TEST(Recommendation, SaysWhatReachesTheErrorByTheDisplacementAloneWhereTheForceDoesNot) {

@@ -88,30 +88,30 @@ void state_repetition(report::Artefact& artefact, const app::Scene& scene, const
 
 /// Two methods: from event to event in time, and all of the period at once.
 void note_agreement(report::Artefact& artefact, const app::Scene& scene, const app::Response& stepping,
-                    const app::Response& phases) {
+                    const app::Response& exact) {
   const auto distance = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
     return report::number(app::relative_rms_error(a, b));
   };
   artefact.note(fmt::format(
       "Time stepping differs from the exact solution by {} in the tip displacements (relative rms), {} in the tip "
       "velocities, {} in the contact forces and {} in the energies.",
-      distance(stepping.displacement(), phases.displacement()),
-      distance(stepping.velocity(), phases.velocity()), distance(stepping.force(), phases.force()),
-      distance(app::system_energy(scene, stepping.structure), app::system_energy(scene, phases.structure))));
+      distance(stepping.displacement(), exact.displacement()),
+      distance(stepping.velocity(), exact.velocity()), distance(stepping.force(), exact.force()),
+      distance(app::system_energy(scene, stepping.structure), app::system_energy(scene, exact.structure))));
 }
 
-void note_exact(report::Artefact& artefact, const app::Response& phases) {
+void note_exact(report::Artefact& artefact, const app::Response& exact) {
   artefact.note(fmt::format(
       "Event-driven collocation represents the contact force by polynomials between the instants at which contact "
       "begins and ends: {} unknowns and {} Newton steps from a harmonic balance with {} functions. The error of the tip "
       "displacement is estimated at {} (relative rms). Other nodes and the energy are summed from {} harmonics; the "
       "rest moves the tip by {}.",
-      phases.unknowns, phases.iterations, phases.start_functions,
-      report::number(phases.phases->motion.estimated_error), phases.structure_harmonics,
-      report::number(phases.structure_left_out)));
+      exact.unknowns, exact.iterations, exact.start_functions,
+      report::number(exact.exact->motion.estimated_error), exact.structure_harmonics,
+      report::number(exact.structure_left_out)));
   artefact.note(fmt::format("Largest displacement {} mm, in contact for {} of the period.",
-                            report::number(1e3 * phases.displacement().maxCoeff(), 7),
-                            report::percent(app::contact_fraction(phases.contacts), 4)));
+                            report::number(1e3 * exact.displacement().maxCoeff(), 7),
+                            report::percent(app::contact_fraction(exact.contacts), 4)));
 }
 
 }  // namespace
@@ -119,13 +119,13 @@ void note_exact(report::Artefact& artefact, const app::Response& phases) {
 void reference(report::Artefact& artefact, int case_number) {
   const auto scene = artefact.scene(fmt::format("reference_case{}.toml", case_number));
   const auto stepped_scene = artefact.scene(fmt::format("stepping_case{}.toml", case_number));
-  const auto phases = by_phases(scene, scene.analysis.output_points);
+  const auto exact = exact_solution(scene, scene.analysis.output_points);
   const auto stepping = by_stepping(stepped_scene);
   const std::string units = "SI; a column's name ends in its unit; time_fraction in periods";
-  auto table = app::response_table(phases.contacts);
-  table.add_column("system_energy_J", app::system_energy(scene, phases.structure));
+  auto table = app::response_table(exact.contacts);
+  table.add_column("system_energy_J", app::system_energy(scene, exact.structure));
   artefact.data(table, units);
-  artefact.more_data("nodes", node_columns(phases.structure),
+  artefact.more_data("nodes", node_columns(exact.structure),
                      "displacements of the nodes in m; time_fraction in periods");
   artefact.more_data("time_stepping", app::response_table(stepping.contacts), units);
   artefact.caption(fmt::format(
@@ -133,9 +133,9 @@ void reference(report::Artefact& artefact, int case_number) {
       "the reference of the paper.",
       stepping.iterations));
   state_repetition(artefact, stepped_scene, stepping);
-  note_agreement(artefact, stepped_scene, stepping, phases);
+  note_agreement(artefact, stepped_scene, stepping, exact);
   if (case_number == 2) state_transient(artefact);
-  note_exact(artefact, phases);
+  note_exact(artefact, exact);
 }
 
 }  // namespace wavebalance::jl14

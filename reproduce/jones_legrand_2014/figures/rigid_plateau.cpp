@@ -49,7 +49,7 @@ Study::Study(report::Artefact& artefact, int case_number)
       artefact.note(fmt::format("Case {}, {} did not converge ({}) and is not drawn.", number, pair.label,
                                 rigid.back().status));
   }
-  exact = by_phases(artefact.scene(fmt::format("reference_case{}_rigid.toml", number)));
+  exact = exact_solution(artefact.scene(fmt::format("reference_case{}_rigid.toml", number)));
 }
 
 /// A group of pairs that share panels.
@@ -127,8 +127,8 @@ void append_rows(Table& table, const Study& study) {
 /// The force just after contact begins, over the amplitude of the load.
 double first_force(const Study& study) {
   constexpr double just = 1e-9;  // of the period
-  const solvers::ExactSolution& motion = study.exact.phases->motion;
-  const Eigen::VectorXd time = Eigen::VectorXd::Constant(1, motion.phases.front().begin + just);
+  const solvers::ExactSolution& motion = study.exact.exact->motion;
+  const Eigen::VectorXd time = Eigen::VectorXd::Constant(1, motion.intervals.front().begin + just);
   return motion.force(time)(0, 0) / study.scene.forcing.amplitude;
 }
 

@@ -36,7 +36,7 @@ std::vector<Stair> stairs() {
                  {{"daubechies10", "daubechies10"}, {"daubechies10", "fourier"}},
                  app::Colour::black,
                  app::Dash::dashed});
-  all.push_back({"exact", {app::BasisPair::phases()}, app::Colour::black});
+  all.push_back({"exact", {app::BasisPair::exact()}, app::Colour::black});
   return all;
 }
 
@@ -104,7 +104,7 @@ Costs costs_of(report::Artefact& artefact, const std::string& scene, const std::
   options.largest_functions = 1 << 12;
   for (const Stair& stair : stairs())
     for (const auto& pair : stair.pairs)
-      if (!pair.is_phases()) options.pairs.push_back(pair);
+      if (!pair.is_exact()) options.pairs.push_back(pair);
   const auto comparison = app::compare_responses(read, options);
   if (!comparison.reference.converged) throw report::NotConverged(scene + ": " + comparison.status());
   Costs costs{scene, title, rigid, {}};
@@ -245,12 +245,12 @@ std::function<double(const Costs&, int)> least_of(const std::function<bool(const
 }
 
 /// The largest error from which on the exact solution is the cheapest.
-std::string phases_win(const Costs& costs) {
-  const std::size_t phases = stairs().size() - 1;
+std::string exact_wins(const Costs& costs) {
+  const std::size_t exact = stairs().size() - 1;
   int from = asked_steps;
   while (from > 0) {
     const auto best = costs.best(false, from - 1);
-    if (best && *best != phases) break;
+    if (best && *best != exact) break;
     --from;
   }
   return from == asked_steps ? "at none of these errors"
@@ -260,7 +260,7 @@ std::string phases_win(const Costs& costs) {
 void take_away(report::Artefact& artefact, const std::vector<Costs>& all) {
   const auto haar = [](const Stair& stair) { return stair.pairs.front().trial == "haar"; };
   const auto db10 = [](const Stair& stair) { return stair.label == "DB10"; };
-  const auto basis = [](const Stair& stair) { return !stair.pairs.front().is_phases(); };
+  const auto basis = [](const Stair& stair) { return !stair.pairs.front().is_exact(); };
   artefact.note("With the exponential law the cheapest pair of bases takes " +
                 span(all, false, least_of(basis)) +
                 " times the time of Fourier:Fourier for the same error of the displacement.");
@@ -271,7 +271,7 @@ void take_away(report::Artefact& artefact, const std::vector<Costs>& all) {
       "obstacle.",
       span(all, false, least_of(haar)), span(all, true, least_of(haar))));
   std::string wins;
-  for (const Costs& costs : all) wins += (wins.empty() ? "" : "; ") + costs.title + " " + phases_win(costs);
+  for (const Costs& costs : all) wins += (wins.empty() ? "" : "; ") + costs.title + " " + exact_wins(costs);
   artefact.note("The exact solution is the cheapest of all: " + wins + ".");
 }
 

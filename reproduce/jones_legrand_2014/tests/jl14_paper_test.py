@@ -47,7 +47,7 @@ def test_references_meet_the_values_of_shooting(results, case, known_rms, half_d
 
 
 @pytest.mark.parametrize("case", [1, 2])
-def test_references_are_contact_phases_that_time_stepping_comes_near(results, case):
+def test_references_are_exact_solutions_that_time_stepping_comes_near(results, case):
     stem = f"reference_case{case}"
     time = tomllib.loads((JONES / f"{stem}.toml").read_text())["time"]
     assert time["method"] == "exact"

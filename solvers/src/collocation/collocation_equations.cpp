@@ -32,13 +32,13 @@ std::vector<Release> releases_of(const CollocationModel& model, const Layout& la
       released[static_cast<std::size_t>(passage)] = release;
   };
   for (std::size_t p = 0; p < grid.panels.size(); ++p) {
-    const int number = grid.panels[p].phase;
-    const LayoutInterval& phase = layout.phases[static_cast<std::size_t>(number)];
-    if (!model.laws[static_cast<std::size_t>(phase.contact)].exerts(phase.piece)) continue;
-    const bool first = p == 0 || grid.panels[p - 1].phase != number,
-               last = p + 1 == grid.panels.size() || grid.panels[p + 1].phase != number;
-    if (first) note(phase.begin, {static_cast<int>(p), false});
-    if (last) note(phase.end, {static_cast<int>(p), true});
+    const int number = grid.panels[p].interval;
+    const LayoutInterval& interval = layout.intervals[static_cast<std::size_t>(number)];
+    if (!model.laws[static_cast<std::size_t>(interval.contact)].exerts(interval.piece)) continue;
+    const bool first = p == 0 || grid.panels[p - 1].interval != number,
+               last = p + 1 == grid.panels.size() || grid.panels[p + 1].interval != number;
+    if (first) note(interval.begin, {static_cast<int>(p), false});
+    if (last) note(interval.end, {static_cast<int>(p), true});
   }
   return released;
 }
@@ -78,7 +78,7 @@ Evaluation evaluate(const CollocationModel& model, const CollocationIterate& at,
   result.force.resize(n);
   for (Index i = 0; i < n; ++i)
     result.force[i] =
-        at.forces.in_phase(panel_of(grid, i, nodes).phase, instants[static_cast<std::size_t>(i)].time);
+        at.forces.in_interval(panel_of(grid, i, nodes).interval, instants[static_cast<std::size_t>(i)].time);
   for (const Passage& passage : at.layout.passages) passages.push_back({passage.contact, passage.time});
   const Eigen::MatrixXd coefficients =
       nodes.coefficients * result.force.reshaped(nodes.count(), n / nodes.count());
@@ -95,7 +95,7 @@ Evaluation evaluate(const CollocationModel& model, const CollocationIterate& at,
   double largest_law = 0.0;
   for (Index i = 0; i < n; ++i) {
     const Panel& panel = panel_of(grid, i, nodes);
-    const int piece = at.layout.phases[static_cast<std::size_t>(panel.phase)].piece;
+    const int piece = at.layout.intervals[static_cast<std::size_t>(panel.interval)].piece;
     const ForceSlopes law =
         model.laws[static_cast<std::size_t>(panel.contact)].at(piece, u[i], model.frequency * v[i]);
     const bool rigid = model.laws[static_cast<std::size_t>(panel.contact)].rigid();
@@ -127,7 +127,8 @@ Evaluation on_panels_of(const Layout& layout, const CollocationModel& model, con
     const PanelForces polynomials(solved.grid, nodes, values);
     Eigen::VectorXd own(Index(instants.size()));
     for (Index i = 0; i < own.size(); ++i)
-      own[i] = polynomials.in_phase(panel_of(result.grid, i, nodes).phase, instants[std::size_t(i)].time);
+      own[i] =
+          polynomials.in_interval(panel_of(result.grid, i, nodes).interval, instants[std::size_t(i)].time);
     return own;
   };
   result.force = values_of(solved.force);
@@ -149,11 +150,11 @@ Eigen::VectorXd impulses_of(const Layout& layout, const Evaluation& now, const L
   Eigen::VectorXd result = Eigen::VectorXd::Ones(now.force.size() + now.passing.size());
   auto added = result.tail(now.passing.size());
   added.setZero();
-  for (std::size_t p = 0; p < layout.phases.size(); ++p) {
-    const LayoutInterval& phase = layout.phases[p];
-    if (phase.begin < 0) continue;
-    added[phase.end] += forces.in_phase(static_cast<int>(p), layout.end(phase));
-    added[phase.begin] -= forces.in_phase(static_cast<int>(p), layout.begin(phase));
+  for (std::size_t p = 0; p < layout.intervals.size(); ++p) {
+    const LayoutInterval& interval = layout.intervals[p];
+    if (interval.begin < 0) continue;
+    added[interval.end] += forces.in_interval(static_cast<int>(p), layout.end(interval));
+    added[interval.begin] -= forces.in_interval(static_cast<int>(p), layout.begin(interval));
   }
   return result;
 }
@@ -170,8 +171,8 @@ Eigen::MatrixXd residual_by_motion(const Evaluation& now, const Eigen::MatrixXd&
   return result;
 }
 
-// The nodes move with the ends of their panels; since the residual is nearly zero along a phase, not only at
-// its nodes, that has no part in it.
+// The nodes move with the ends of their panels; since the residual is nearly zero along an interval, not only
+// at its nodes, that has no part in it.
 Eigen::MatrixXd jacobian(const Evaluation& now, const Eigen::VectorXd& impulses, const LegendreNodes& nodes,
                          const Influence& influence) {
   const Index n = now.force.size(), m = now.passing.size();
@@ -211,7 +212,7 @@ PanelForces forces_along(const CollocationModel& model, const Layout& layout, co
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(motion.velocity.rows(), motion.velocity.cols());
   for (std::size_t i = 0; i < instants.size(); ++i) {
     const Panel& panel = panel_of(grid, Index(i), nodes);
-    const int piece = layout.phases[static_cast<std::size_t>(panel.phase)].piece;
+    const int piece = layout.intervals[static_cast<std::size_t>(panel.interval)].piece;
     const double u = interpolated(motion.displacement, motion.velocity, instants[i]),
                  v = model.frequency * interpolated(motion.velocity, none, instants[i]);
     values[Index(i)] = model.laws[static_cast<std::size_t>(panel.contact)].at(piece, u, v).force;

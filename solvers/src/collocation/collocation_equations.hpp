@@ -7,7 +7,7 @@
 
 namespace wavebalance::solvers::detail {
 
-/// An iterate: the instants of the phases and the forces within them.
+/// An iterate: the instants of the intervals and the forces within them.
 struct CollocationIterate {
   Layout layout;
   PanelForces forces;

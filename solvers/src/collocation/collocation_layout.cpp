@@ -182,7 +182,7 @@ void append_exact(Layout& layout, int contact, const LawSegments& law, std::vect
   piece_at_start = join_over_short(steps, least, piece_at_start);
   if (steps.empty()) {
     if (law.acts(piece_at_start))
-      layout.phases.push_back({contact, piece_at_start, -1, -1, 1.0, {0.25, 0.5, 0.75}});
+      layout.intervals.push_back({contact, piece_at_start, -1, -1, 1.0, {0.25, 0.5, 0.75}});
     return;
   }
   const int first = static_cast<int>(layout.passages.size());
@@ -192,7 +192,7 @@ void append_exact(Layout& layout, int contact, const LawSegments& law, std::vect
     const int piece = steps[static_cast<std::size_t>(i)].to;
     if (!law.acts(piece)) continue;
     const bool around = i + 1 == count;
-    layout.phases.push_back(
+    layout.intervals.push_back(
         {contact, piece, first + i, first + (around ? 0 : i + 1), around ? 1.0 : 0.0, {}});
   }
 }
@@ -212,37 +212,37 @@ std::vector<double> boundaries_among(std::vector<double> times) {
 
 }  // namespace
 
-double Layout::begin(const LayoutInterval& phase) const {
-  return phase.begin < 0 ? 0.0 : passages[static_cast<std::size_t>(phase.begin)].time;
+double Layout::begin(const LayoutInterval& interval) const {
+  return interval.begin < 0 ? 0.0 : passages[static_cast<std::size_t>(interval.begin)].time;
 }
 
-double Layout::end(const LayoutInterval& phase) const {
-  return phase.end < 0 ? 1.0 : passages[static_cast<std::size_t>(phase.end)].time + phase.turns;
+double Layout::end(const LayoutInterval& interval) const {
+  return interval.end < 0 ? 1.0 : passages[static_cast<std::size_t>(interval.end)].time + interval.turns;
 }
 
 CellGrid Layout::grid() const {
   std::vector<double> times;
   for (const Passage& passage : passages) times.push_back(passage.time);
-  for (const LayoutInterval& phase : phases) {
-    const double from = begin(phase), length = end(phase) - from;
-    if (phase.begin < 0) times.push_back(from);
-    for (const double cut : phase.cuts) times.push_back(from + cut * length);
+  for (const LayoutInterval& interval : intervals) {
+    const double from = begin(interval), length = end(interval) - from;
+    if (interval.begin < 0) times.push_back(from);
+    for (const double cut : interval.cuts) times.push_back(from + cut * length);
   }
   CellGrid grid{boundaries_among(std::move(times)), {}, {}};
-  for (std::size_t p = 0; p < phases.size(); ++p) {
-    const LayoutInterval& phase = phases[p];
-    double time = begin(phase);
+  for (std::size_t p = 0; p < intervals.size(); ++p) {
+    const LayoutInterval& interval = intervals[p];
+    double time = begin(interval);
     int cell = grid.boundary_near(time);
-    const int last = grid.boundary_near(end(phase));
-    if (cell == last && end(phase) - time < 0.5) continue;  // without length
+    const int last = grid.boundary_near(end(interval));
+    if (cell == last && end(interval) - time < 0.5) continue;  // without length
     std::vector<int> own_cuts{0};
-    for (const double cut : phase.cuts)
-      own_cuts.push_back(grid.boundary_near(begin(phase) + cut * (end(phase) - begin(phase))));
+    for (const double cut : interval.cuts)
+      own_cuts.push_back(grid.boundary_near(begin(interval) + cut * (end(interval) - begin(interval))));
     bool meets = true;  // the panel before
     do {
       const double length = grid.length(cell);
       if (meets) {
-        grid.panels.push_back({phase.contact, static_cast<int>(p), cell, time, time + length});
+        grid.panels.push_back({interval.contact, static_cast<int>(p), cell, time, time + length});
       } else {
         grid.panels.back().end = time + length;
         ++grid.panels.back().cells;
@@ -254,9 +254,9 @@ CellGrid Layout::grid() const {
   }
   for (std::size_t i = 0; i < passages.size(); ++i) {
     const auto number = static_cast<int>(i);
-    const bool ends = std::any_of(phases.begin(), phases.end(),
+    const bool ends = std::any_of(intervals.begin(), intervals.end(),
                                   [&](const LayoutInterval&p) { return p.end == number; }),
-               begins = std::any_of(phases.begin(), phases.end(),
+               begins = std::any_of(intervals.begin(), intervals.end(),
                                     [&](const LayoutInterval&p) { return p.begin == number; });
     grid.marks.push_back({passages[i].contact, grid.boundary_near(passages[i].time), ends, begins});
   }
@@ -305,7 +305,7 @@ bool same_intervals(const Layout& a, const Layout& b, int contact) {
     return q.contact == p.contact && q.breakpoint == p.breakpoint && q.released == p.released &&
            close(q.time, p.time, p.released);
   };
-  const auto same_phase = [&](const LayoutInterval& p, const LayoutInterval& q) {
+  const auto same_interval = [&](const LayoutInterval& p, const LayoutInterval& q) {
     return q.contact == p.contact && q.piece == p.piece && (q.begin < 0) == (p.begin < 0) &&
            close(b.begin(q), a.begin(p), released(p.begin)) && close(b.end(q), a.end(p), released(p.end));
   };
@@ -319,7 +319,7 @@ bool same_intervals(const Layout& a, const Layout& b, int contact) {
              std::any_of(among.begin(), among.end(), [&](const auto& other) { return same(one, other); });
     });
   };
-  return all_have(a.passages, b.passages, same_passage) && all_have(a.phases, b.phases, same_phase);
+  return all_have(a.passages, b.passages, same_passage) && all_have(a.intervals, b.intervals, same_interval);
 }
 
 PanelForces::PanelForces(CellGrid grid, const LegendreNodes& nodes, const Eigen::VectorXd& values)
@@ -339,18 +339,18 @@ double PanelForces::value(std::size_t panel, double time) const {
   return sum;
 }
 
-// The panel of the phase that holds the time, or the one next to it.
-std::size_t PanelForces::panel_of(int phase, double time) const {
+// The panel of the interval that holds the time, or the one next to it.
+std::size_t PanelForces::panel_of(int interval, double time) const {
   std::size_t nearest = grid_.panels.size();
   for (std::size_t p = 0; p < grid_.panels.size(); ++p) {
-    if (grid_.panels[p].phase != phase) continue;
+    if (grid_.panels[p].interval != interval) continue;
     if (nearest == grid_.panels.size() || time > grid_.panels[p].begin) nearest = p;
   }
   return nearest;
 }
 
-double PanelForces::in_phase(int phase, double time) const {
-  const std::size_t panel = panel_of(phase, time);
+double PanelForces::in_interval(int interval, double time) const {
+  const std::size_t panel = panel_of(interval, time);
   return panel == grid_.panels.size() ? 0.0 : value(panel, time);
 }
 

@@ -19,28 +19,28 @@ struct Passage {
   bool released = false;    ///< the force vanishes instead
 };
 
-/// A phase between two passages, or one that lasts the whole period, with passages -1.
+/// An interval between two passages, or one that lasts the whole period, with passages -1.
 struct LayoutInterval {
   int contact = 0, piece = 0;
   int begin = -1, end = -1;       ///< numbers of passages
   double turns = 0.0;             ///< added to the time of `end`, so that it comes after `begin`
-  std::vector<double> cuts = {};  ///< shares in (0, 1) of the phase at which panels meet, ascending
+  std::vector<double> cuts = {};  ///< shares in (0, 1) of the interval at which panels meet, ascending
 };
 
-/// All phases with a force, and their passages, which are unknowns.
+/// All intervals with a force, and their passages, which are unknowns.
 struct Layout {
   std::vector<Passage> passages;
-  std::vector<LayoutInterval> phases;
+  std::vector<LayoutInterval> intervals;
   /// Whether passages and cuts of other intervals cut the panels of an interval: its force has kinks in
   /// high derivatives there. With many active contacts, panels without these cuts are far fewer.
   bool cut_by_others = true;
 
-  double begin(const LayoutInterval& phase) const;
-  double end(const LayoutInterval& phase) const;
+  double begin(const LayoutInterval& interval) const;
+  double end(const LayoutInterval& interval) const;
   /// Between two passages of one contact, in periods; 1 where no contact has two. O(passages^2).
   double shortest_interval() const;
-  /// The cells of the period, between all passages and cuts of all contacts, and the panels of the phases, by
-  /// phase.
+  /// The cells of the period, between all passages and cuts of all contacts, and the panels of the intervals,
+  /// by interval.
   CellGrid grid() const;
 };
 
@@ -55,7 +55,7 @@ Layout layout_of(const std::vector<LawSegments>& laws, double frequency, const E
 /// fourth order give, per period.
 Eigen::MatrixXd periodic_slopes(const Eigen::MatrixXd& samples);
 
-/// Whether a contact has the same phases at about the same instants in both, in any order.
+/// Whether a contact has the same intervals at about the same instants in both, in any order.
 bool same_intervals(const Layout& a, const Layout& b, int contact);
 
 /// Contact forces that are polynomials on panels.
@@ -67,15 +67,15 @@ class PanelForces {
 
   const CellGrid& grid() const { return grid_; }
   const std::vector<Panel>& panels() const { return grid_.panels; }
-  /// The force of a phase at a time in its own periods, continued beyond the ends of the phase.
-  double in_phase(int phase, double time) const;
+  /// The force of an interval at a time in its own periods, continued beyond the ends of the interval.
+  double in_interval(int interval, double time) const;
   /// The force of a contact at any time; zero outside its panels.
   double at(int contact, double time) const;
   /// q x panels, N.
   const Eigen::MatrixXd& coefficients() const { return coefficients_; }
 
  private:
-  std::size_t panel_of(int phase, double time) const;
+  std::size_t panel_of(int interval, double time) const;
   double value(std::size_t panel, double time) const;
 
   CellGrid grid_;

@@ -23,7 +23,7 @@ using detail::ContactMotion, detail::Layout, detail::LegendreNodes, detail::Pane
     detail::CollocationIterate, detail::CollocationModel, detail::CollocationResult;
 using Found = detail::CollocationSolution;
 
-// At least so many instants at which the motion found is compared with its phases.
+// At least so many instants at which the motion found is compared with its intervals.
 constexpr Index least_samples = 256;
 
 ExactStatus refusal(const ExactProblem& problem) {
@@ -150,7 +150,7 @@ class Search {
   Found solved(CollocationIterate iterate, double tolerance, ExactSolution& result,
                detail::KnownPeriod known = {}) {
     CollocationResult found =
-        newton(&detail::solve_phases, std::move(iterate), tolerance, result, std::move(known));
+        newton(&detail::solve_intervals, std::move(iterate), tolerance, result, std::move(known));
     return {model_, std::move(found), nodes_, times_, free_};
   }
 
@@ -246,7 +246,7 @@ class Search {
     result.residual = found.newton.residual;
     result.unknowns = static_cast<int>(iterate.forces.coefficients().size()) +
                       static_cast<int>(iterate.layout.passages.size());
-    if (exhausted_) result.status = ExactStatus::too_many_phases;
+    if (exhausted_) result.status = ExactStatus::too_many_intervals;
     if (cancelled_) result.status = ExactStatus::cancelled;
     if (!found.agrees()) return result;
     if (result.estimated_error <= options_.tolerance)
@@ -288,7 +288,7 @@ std::string_view to_string(ExactStatus status) {
                                        {tolerance_missed, "tolerance_missed"},
                                        {rigid_contact, "rigid_contact"},
                                        {velocity_and_no_mass, "velocity_and_no_mass"},
-                                       {too_many_phases, "too_many_phases"},
+                                       {too_many_intervals, "too_many_phases"},
                                        {resonant, "resonant"},
                                        {structural_damping, "structural_damping"},
                                        {slip_in_a_plane, "slip_in_a_plane"},

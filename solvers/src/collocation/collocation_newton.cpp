@@ -50,11 +50,11 @@ double admissible_part(const Layout& layout, const Eigen::VectorXd& shifts) {
   constexpr double longest = 0.02;
   double part = 1.0;
   if (shifts.size() > 0) part = std::min(part, longest / std::max(longest, shifts.cwiseAbs().maxCoeff()));
-  for (const LayoutInterval& phase : layout.phases) {
-    if (phase.begin < 0) continue;
-    const double length = layout.end(phase) - layout.begin(phase);
-    const double lost =
-        shifts[phase.begin] - (phase.begin == phase.end ? shifts[phase.begin] : shifts[phase.end]);
+  for (const LayoutInterval& interval : layout.intervals) {
+    if (interval.begin < 0) continue;
+    const double length = layout.end(interval) - layout.begin(interval);
+    const double lost = shifts[interval.begin] -
+                        (interval.begin == interval.end ? shifts[interval.begin] : shifts[interval.end]);
     if (lost > 0.0) part = std::min(part, 0.5 * length / lost);
   }
   return part;
@@ -70,8 +70,8 @@ void move(CollocationIterate& at, const Evaluation& now, const LegendreNodes& no
 
 bool has_collapsed(const Layout& layout) {
   constexpr double shortest = 1e-11;
-  return std::any_of(layout.phases.begin(), layout.phases.end(), [&](const LayoutInterval& phase) {
-    const double length = layout.end(phase) - layout.begin(phase);
+  return std::any_of(layout.intervals.begin(), layout.intervals.end(), [&](const LayoutInterval& interval) {
+    const double length = layout.end(interval) - layout.begin(interval);
     return !(length > shortest && length < 1.0 + shortest);
   });
 }
@@ -96,8 +96,8 @@ void set_errors(CollocationResult& result, const Evaluation& now, const Legendre
 // A residual needs only the motion by the forces, far less work than their influence. The influence is
 // computed for a step unless the previous matrix is still good. The influence before a step gives the
 // errors of its result.
-CollocationResult solve_phases(const CollocationModel& model, CollocationIterate start,
-                               const LegendreNodes& nodes, const NewtonLimits& limits, KnownPeriod known) {
+CollocationResult solve_intervals(const CollocationModel& model, CollocationIterate start,
+                                  const LegendreNodes& nodes, const NewtonLimits& limits, KnownPeriod known) {
   CollocationResult result;
   result.iterate = std::move(start);
   constexpr double good = 1e-3;  // what a step leaves of the residual

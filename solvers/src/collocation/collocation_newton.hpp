@@ -17,7 +17,7 @@ struct KnownPeriod {
 
 struct CollocationResult {
   bool converged = false;
-  bool collapsed = false;  ///< a phase has no length any more
+  bool collapsed = false;  ///< an interval has no length any more
   int iterations = 0;
   double residual = 0.0;
   CollocationIterate iterate;
@@ -43,20 +43,20 @@ inline double step_operations(double unknowns, double poles) {
 
 /// Newton's method on the forces at q nodes of each panel and the instants of all passages. That with
 /// the residual of rounding, Evaluation::is_rounding(), is converged, too. `known`: of the start.
-CollocationResult solve_phases(const CollocationModel& model, CollocationIterate start,
-                               const LegendreNodes& nodes, const NewtonLimits& limits, KnownPeriod known);
+CollocationResult solve_intervals(const CollocationModel& model, CollocationIterate start,
+                                  const LegendreNodes& nodes, const NewtonLimits& limits, KnownPeriod known);
 /// The same, only for the forces.
 CollocationResult solve_forces(const CollocationModel& model, CollocationIterate start,
                                const LegendreNodes& nodes, const NewtonLimits& limits, KnownPeriod known);
 
-/// The largest part of the shifts of the passages that leaves each phase half of its length, and no passage
-/// more than a fiftieth of the period behind.
+/// The largest part of the shifts of the passages that leaves each interval half of its length, and no
+/// passage more than a fiftieth of the period behind.
 double admissible_part(const Layout& layout, const Eigen::VectorXd& shifts);
 /// Adds a change of the n forces and m instants, the first n + m of its values, to the iterate of an
 /// evaluation.
 void move(CollocationIterate& at, const Evaluation& now, const LegendreNodes& nodes,
           const Eigen::VectorXd& change);
-/// Whether a phase has no length, or more than a period.
+/// Whether an interval has no length, or more than a period.
 bool has_collapsed(const Layout& layout);
 
 /// Sets the results of a converged solution in addition to its iterate. `answer`: the unknowns by which

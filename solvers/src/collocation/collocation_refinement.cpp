@@ -26,21 +26,22 @@ double decay_of(const PanelForces& forces) {
   return slowest;
 }
 
-// New cuts of phases in their panels. Where the cuts of each contact cut the others, one in a cell is enough
-// for all, and two that nearly agree would move apart with the passages of their contacts.
+// New cuts of intervals in their panels. Where the cuts of each contact cut the others, one in a cell is
+// enough for all, and two that nearly agree would move apart with the passages of their contacts.
 class NewCuts {
  public:
   explicit NewCuts(Layout& layout) : layout_(layout) {}
 
   bool any() const { return any_; }
 
-  // Near the ends of its phase, where layers of fast modes lie, or a panel without such an end in the middle.
+  // Near the ends of its interval, where layers of fast modes lie, or a panel without such an end in the
+  // middle.
   void divide(const Panel& panel, bool at_ends) {
     constexpr double layer = 0.15, edge = 1e-6;
-    const LayoutInterval& phase = layout_.phases[static_cast<std::size_t>(panel.phase)];
-    const double begin = layout_.begin(phase), end = layout_.end(phase), near = edge * (end - begin);
-    const bool first = phase.begin >= 0 && panel.begin - begin < near,
-               last = phase.begin >= 0 && end - panel.end < near;
+    const LayoutInterval& interval = layout_.intervals[static_cast<std::size_t>(panel.interval)];
+    const double begin = layout_.begin(interval), end = layout_.end(interval), near = edge * (end - begin);
+    const bool first = interval.begin >= 0 && panel.begin - begin < near,
+               last = interval.begin >= 0 && end - panel.end < near;
     if (at_ends && first) add(panel, layer);
     if (at_ends && last) add(panel, 1.0 - layer);
     if (!at_ends && !first && !last) add(panel, 0.5);
@@ -62,10 +63,10 @@ class NewCuts {
       cuts_.push_back({panel.cell, place});
     }
     any_ = true;
-    LayoutInterval& phase = layout_.phases[static_cast<std::size_t>(panel.phase)];
-    const double begin = layout_.begin(phase), length = layout_.end(phase) - begin;
-    phase.cuts.push_back((panel.begin + place * panel.length() - begin) / length);
-    std::sort(phase.cuts.begin(), phase.cuts.end());
+    LayoutInterval& interval = layout_.intervals[static_cast<std::size_t>(panel.interval)];
+    const double begin = layout_.begin(interval), length = layout_.end(interval) - begin;
+    interval.cuts.push_back((panel.begin + place * panel.length() - begin) / length);
+    std::sort(interval.cuts.begin(), interval.cuts.end());
   }
 
   Layout& layout_;
@@ -117,12 +118,12 @@ void join_panels(CollocationIterate& iterate, const EstimatedError& error, const
   Layout& layout = iterate.layout;
   const std::vector<Panel>& panels = iterate.forces.panels();
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    LayoutInterval& phase = layout.phases[static_cast<std::size_t>(panels[p].phase)];
-    if (phase.begin < 0 || !(error.shares[Index(p)] < nothing)) continue;
-    const double begin = layout.begin(phase), length = layout.end(phase) - begin;
+    LayoutInterval& interval = layout.intervals[static_cast<std::size_t>(panels[p].interval)];
+    if (interval.begin < 0 || !(error.shares[Index(p)] < nothing)) continue;
+    const double begin = layout.begin(interval), length = layout.end(interval) - begin;
     const double first = (panels[p].begin - begin) / length, last = (panels[p].end - begin) / length;
     if (!(first < edge || last > 1.0 - edge)) continue;
-    std::erase_if(phase.cuts,
+    std::erase_if(interval.cuts,
                   [&](double cut) { return std::abs(cut - (first < edge ? last : first)) < edge; });
   }
 }

@@ -20,12 +20,12 @@ EstimatedError error_of(const CollocationResult& solved, double motion_rms);
 
 double rms_of(const Eigen::MatrixXd& values);
 
-/// Cuts the phases where the last coefficients of a panel are above `share` of the largest force: near an end
-/// of the phase, where layers of fast modes lie, or in the middle. Whether it cut any.
+/// Cuts the intervals where the last coefficients of a panel are above `share` of the largest force: near an
+/// end of the interval, where layers of fast modes lie, or in the middle. Whether it cut any.
 bool divide(CollocationIterate& iterate, double share);
 
-/// Takes away the cuts of panels at an end of their phase that have next to no part in the error: no layer of
-/// fast modes is there. Not where the others need the largest number of nodes, so that every panel counts.
+/// Takes away the cuts of panels at an end of their interval that have next to no part in the error: no layer
+/// of fast modes is there. Not where the others need the largest number of nodes, so that every panel counts.
 void join_panels(CollocationIterate& iterate, const EstimatedError& error, const LegendreNodes& nodes,
                  const CollocationOptions& options);
 

@@ -24,15 +24,15 @@ ExactProblem exact_problem(const CondensedProblem& problem, const ContactLaws& l
 }
 
 ExactNearResponse exact_near_response(const CondensedProblem& problem, const PeriodicResponse& response,
-                                      const ExactProblem& phases, const CollocationOptions& options,
+                                      const ExactProblem& exact, const CollocationOptions& options,
                                       IntervalFinder find) {
   // A start needs no more, but fewer alias the force of a damper that rises within a small depth.
   constexpr int least_points = 256, enough = 1024, enough_of_dampers = 8192;
   const int points = std::clamp(
       problem.points(), least_points,
-      phases.laws.depend_on_velocity() && !phases.laws.act_over_period() ? enough_of_dampers : enough);
-  const Motion balance = contact_motion(problem, response, phases.laws, points);
-  ExactNearResponse result{find(phases, balance.displacement, options, balance.force), missing, missing};
+      exact.laws.depend_on_velocity() && !exact.laws.act_over_period() ? enough_of_dampers : enough);
+  const Motion balance = contact_motion(problem, response, exact.laws, points);
+  ExactNearResponse result{find(exact, balance.displacement, options, balance.force), missing, missing};
   if (result.motion.parts == nullptr) return result;
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
   result.displacement_error = result.motion.start_error;

@@ -13,33 +13,33 @@ namespace wavebalance::solvers {
 namespace {
 
 // How fast a perturbation of a closed contact turns or decays, in rad per period: by the contact's own mass
-// and the largest slopes of its law on a part of a phase.
-double perturbation_rate(const ExactSolution::Parts& parts, int phase, double begin, double end) {
-  const int contact = parts.iterate.layout.phases[static_cast<std::size_t>(phase)].contact;
+// and the largest slopes of its law on a part of an interval.
+double perturbation_rate(const ExactSolution::Parts& parts, int interval, double begin, double end) {
+  const int contact = parts.iterate.layout.intervals[static_cast<std::size_t>(interval)].contact;
   const detail::PoleResponse& response = parts.model.response;
   const double acceleration = response.acceleration_at_once(contact);
   double rate = 0.0;
   for (const double share : {0.01, 0.25, 0.5, 0.75, 0.99}) {
     const double time = begin + share * (end - begin);
-    const double slope = std::abs(parts.tangent.in_phase(phase, time));
+    const double slope = std::abs(parts.tangent.in_interval(interval, time));
     const double stiffness = slope / (1.0 + slope * response.displacement_at_once(contact));
-    const double damping = std::abs(parts.damping.in_phase(phase, time)) * parts.model.frequency;
+    const double damping = std::abs(parts.damping.in_interval(interval, time)) * parts.model.frequency;
     rate = std::max(rate, std::sqrt(stiffness * acceleration) + damping * acceleration);
   }
   return rate;
 }
 
-// The phases cut into panels that resolve perturbations, which may move faster than the motion does: at most
-// one radian a node. Nothing where cuts would make too many.
+// The intervals cut into panels that resolve perturbations, which may move faster than the motion does: at
+// most one radian a node. Nothing where cuts would make too many.
 std::optional<detail::Layout> resolving_perturbations(const ExactSolution::Parts& parts) {
   detail::Layout result = parts.iterate.layout;
   const auto q = double(parts.nodes.count());
   const double most_unknowns = std::max(4000.0, q * double(parts.iterate.forces.panels().size()));
   double unknowns = 0.0;
-  for (std::size_t i = 0; i < result.phases.size(); ++i) {
-    detail::LayoutInterval& phase = result.phases[i];
-    const double begin = result.begin(phase), length = result.end(phase) - begin;
-    std::vector<double> ends = phase.cuts, cuts;
+  for (std::size_t i = 0; i < result.intervals.size(); ++i) {
+    detail::LayoutInterval& interval = result.intervals[i];
+    const double begin = result.begin(interval), length = result.end(interval) - begin;
+    std::vector<double> ends = interval.cuts, cuts;
     ends.push_back(1.0);
     double from = 0.0;
     for (const double to : ends) {
@@ -52,7 +52,7 @@ std::optional<detail::Layout> resolving_perturbations(const ExactSolution::Parts
       from = to;
     }
     cuts.pop_back();
-    phase.cuts = std::move(cuts);
+    interval.cuts = std::move(cuts);
   }
   return result;
 }
@@ -63,10 +63,10 @@ std::optional<detail::PeriodMap> map_of(const ExactSolution::Parts& parts) {
 }
 
 // Whether a contact has a force at a time.
-bool acts(const std::vector<ForceInterval>& phases, int contact, double time) {
-  return std::any_of(phases.begin(), phases.end(), [&](const ForceInterval& phase) {
-    const double since = time - phase.begin;
-    return phase.contact == contact && since - std::floor(since) <= phase.length();
+bool acts(const std::vector<ForceInterval>& intervals, int contact, double time) {
+  return std::any_of(intervals.begin(), intervals.end(), [&](const ForceInterval& interval) {
+    const double since = time - interval.begin;
+    return interval.contact == contact && since - std::floor(since) <= interval.length();
   });
 }
 
@@ -87,7 +87,7 @@ Eigen::MatrixXd ExactSolution::force(const Eigen::VectorXd& times) const {
   forces += parts->model.holding * displacement(times);
   for (Index c = 0; c < forces.rows(); ++c)
     for (Index k = 0; k < times.size(); ++k)
-      if (!acts(phases, int(c), times[k])) forces(c, k) = 0.0;
+      if (!acts(intervals, int(c), times[k])) forces(c, k) = 0.0;
   return forces;
 }
 
@@ -126,14 +126,16 @@ namespace detail {
 void set_parts(ExactSolution& motion, const CollocationModel& model, const CollocationResult& solved,
                const LegendreNodes& nodes) {
   const CollocationIterate& iterate = solved.iterate;
-  for (const LayoutInterval& phase : iterate.layout.phases) {
-    if (!model.laws[static_cast<std::size_t>(phase.contact)].exerts(phase.piece)) continue;
-    const double begin = iterate.layout.begin(phase), whole = std::floor(begin);
-    motion.phases.push_back({phase.contact, phase.piece, begin - whole, iterate.layout.end(phase) - whole});
+  for (const LayoutInterval& interval : iterate.layout.intervals) {
+    if (!model.laws[static_cast<std::size_t>(interval.contact)].exerts(interval.piece)) continue;
+    const double begin = iterate.layout.begin(interval), whole = std::floor(begin);
+    motion.intervals.push_back(
+        {interval.contact, interval.piece, begin - whole, iterate.layout.end(interval) - whole});
   }
-  std::sort(motion.phases.begin(), motion.phases.end(), [](const ForceInterval& a, const ForceInterval& b) {
-    return std::pair(a.contact, a.begin) < std::pair(b.contact, b.begin);
-  });
+  std::sort(motion.intervals.begin(), motion.intervals.end(),
+            [](const ForceInterval& a, const ForceInterval& b) {
+              return std::pair(a.contact, a.begin) < std::pair(b.contact, b.begin);
+            });
   const CellGrid& grid = iterate.forces.grid();
   motion.parts =
       ExactSolution::Parts::complete({model, iterate, nodes, PanelForces(grid, nodes, solved.tangent),

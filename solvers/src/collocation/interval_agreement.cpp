@@ -68,7 +68,7 @@ bool CollocationSolution::agrees() const {
 bool CollocationSolution::is_lost() const {
   constexpr double large = 0.5;
   constexpr std::size_t many = 4;
-  const bool astray = intervals_of_motion.phases.size() > many * newton.iterate.layout.phases.size();
+  const bool astray = intervals_of_motion.intervals.size() > many * newton.iterate.layout.intervals.size();
   return !(newton.residual < large) || (!newton.converged && astray);
 }
 

@@ -10,7 +10,7 @@ namespace wavebalance::solvers::detail {
 /// the gap while there is contact. Where the force jumps there is no slope to interpolate by.
 ContactMotion reach(const CollocationModel& model, ContactMotion motion, const Eigen::MatrixXd& force);
 
-/// A solution of the equations for a list of phases, and the motion that belongs to it.
+/// A solution of the equations for a list of intervals, and the motion that belongs to it.
 struct CollocationSolution {
   /// `free`: the motion without contact at `times`, l / N.
   CollocationSolution(const CollocationModel& model, CollocationResult solved, const LegendreNodes& nodes,
@@ -22,10 +22,10 @@ struct CollocationSolution {
   std::vector<bool>
       complementary;  ///< of each contact, where its force jumps: whether it is where it must be
 
-  /// Whether Newton's method has converged and the motion has the phases of the equations.
+  /// Whether Newton's method has converged and the motion has the intervals of the equations.
   bool agrees() const;
   /// Whether the motion does not determine its contact intervals: the residual is about as large as the
-  /// forces, or Newton's method has not converged and the motion has many times the phases of the
+  /// forces, or Newton's method has not converged and the motion has many times the intervals of the
   /// equations.
   bool is_lost() const;
 };

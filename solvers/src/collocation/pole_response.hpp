@@ -13,7 +13,7 @@ namespace wavebalance::solvers::detail {
 /// consecutive cells of the period, of which only the first may be cell 0. Times in periods as in its
 /// contact interval: begin < end.
 struct Panel {
-  int contact = 0, phase = 0, cell = 0;
+  int contact = 0, interval = 0, cell = 0;
   double begin = 0.0, end = 0.0;
   int cells = 1;
 

@@ -10,7 +10,7 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-// At least so many instants of a period at which motions are compared with their phases.
+// At least so many instants of a period at which motions are compared with their intervals.
 constexpr Index samples = 256;
 
 }  // namespace
@@ -26,7 +26,7 @@ CurvePath::CurvePath(const ProblemFamily& family, const ExactSolution& first,
       times_(Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0 - 1.0 / double(samples))),
       observer_([this](const Progress& newton) {
         cancelled_ = cancelled_ || !solvers::goes_on(options_.observer, progress_) ||
-                     !solvers::goes_on(options_.phases.observer, newton);
+                     !solvers::goes_on(options_.exact.observer, newton);
         return !cancelled_;
       }) {
   const Eigen::MatrixXd displacement = first.displacement(times_);

@@ -21,7 +21,7 @@ namespace {
 using detail::CurvePoint, detail::Held, detail::PathModel, detail::PathPoint, detail::PointOnCurve,
     detail::Prediction, detail::Switch;
 
-// Follows a curve by phases of contact.
+// Follows a curve by contact intervals.
 class IntervalTracer : public detail::CurveTracer {
  public:
   IntervalTracer(PathModel& model, ExactCurve& curve, PathPoint first)
@@ -137,14 +137,14 @@ class IntervalTracer : public detail::CurveTracer {
 
 // Whether it is one of impact_motion().
 bool is_of_impacts(const ProblemFamily& family, const ExactSolution& motion) {
-  return motion.parts != nullptr && !motion.parts->start && motion.phases.empty() &&
+  return motion.parts != nullptr && !motion.parts->start && motion.intervals.empty() &&
          family.laws().have_impacts_alone(family.dynamics().contacts());
 }
 
 }  // namespace
 
 void ExactCurveOptions::validate() const {
-  phases.validate();
+  exact.validate();
   detail::require_positive("exact_curve", "from", from);
   detail::require_positive("exact_curve", "to", to);
   if (from == to) throw std::invalid_argument("exact_curve: from and to are the same");
@@ -183,8 +183,8 @@ ExactCurve exact_curve(const ProblemFamily& family, const ExactSolution& first,
     IntervalTracer(model, curve, std::move(*start)).run();
   else
     curve.start = ExactStatus::not_found;
-  // A force of the velocity may vanish and begin anew within a contact, where the equations of phases have no
-  // switch.
+  // A force of the velocity may vanish and begin anew within a contact, where the equations of collocation
+  // have no switch.
   if (curve.status == SweepStatus::lost && family.laws().depend_on_velocity()) {
     ExactCurve other = detail::map_curve(family, first, options);
     if (!other.points.empty() && other.status != SweepStatus::lost) return other;

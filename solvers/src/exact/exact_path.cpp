@@ -37,15 +37,15 @@ Eigen::VectorXd lagrange_weights(const std::vector<const PathPoint*>& points, do
   return weights;
 }
 
-// The forces of the points at the same share of a phase, weighted.
-double weighted_force(const std::vector<const PathPoint*>& points, const Eigen::VectorXd& weights, int phase,
-                      double share) {
+// The forces of the points at the same share of an interval, weighted.
+double weighted_force(const std::vector<const PathPoint*>& points, const Eigen::VectorXd& weights,
+                      int interval, double share) {
   double sum = 0.0;
   for (std::size_t j = 0; j < points.size(); ++j) {
     const Layout& layout = points[j]->iterate.layout;
-    const LayoutInterval& own = layout.phases[static_cast<std::size_t>(phase)];
+    const LayoutInterval& own = layout.intervals[static_cast<std::size_t>(interval)];
     const double begin = layout.begin(own), time = begin + share * (layout.end(own) - begin);
-    sum += weights[Index(j)] * points[j]->iterate.forces.in_phase(phase, time);
+    sum += weights[Index(j)] * points[j]->iterate.forces.in_interval(interval, time);
   }
   return sum;
 }
@@ -121,7 +121,7 @@ PathPoint PathModel::point_of(HeldSolution solution, const LegendreNodes& nodes,
   const CollocationModel model(family().at(solution.value), length());
   const ContactMotion free = model.free_motion(times());
   const CollocationSolution own(model, std::move(solution.newton), nodes, times(), free);
-  const bool fine = error <= options().phases.tolerance;
+  const bool fine = error <= options().exact.tolerance;
   PathPoint point;
   point.value = solution.value;
   point.iterate = own.newton.iterate;
@@ -145,11 +145,11 @@ PathPoint PathModel::point_of(HeldSolution solution, const LegendreNodes& nodes,
 CollocationIterate PathModel::coarser(const PathPoint& last, CollocationIterate start) const {
   constexpr double much_better = 1e-3;
   const Index q = start.forces.coefficients().rows();
-  if (q == 0 || !(last.motion.estimated_error < much_better * options().phases.tolerance)) return start;
-  const Index fewer = std::max<Index>(options().phases.nodes, q - q / 4);
+  if (q == 0 || !(last.motion.estimated_error < much_better * options().exact.tolerance)) return start;
+  const Index fewer = std::max<Index>(options().exact.nodes, q - q / 4);
   if (fewer == q)
-    for (LayoutInterval& phase : start.layout.phases)
-      if (phase.begin >= 0) phase.cuts.clear();
+    for (LayoutInterval& interval : start.layout.intervals)
+      if (interval.begin >= 0) interval.cuts.clear();
   return with_nodes(start, LegendreNodes(fewer));
 }
 
@@ -158,7 +158,7 @@ bool PathModel::affords(const CollocationIterate& iterate, const LegendreNodes& 
   const double unknowns = double(nodes.count()) * double(iterate.layout.grid().panels.size()) +
                           double(iterate.layout.passages.size());
   return fewest_steps * step_operations(unknowns, double(family().dynamics().poles().size())) <=
-         options().phases.max_operations;
+         options().exact.max_operations;
 }
 
 std::optional<PathPoint> PathModel::solve(double value, CollocationIterate start, const Held& held,
@@ -166,10 +166,10 @@ std::optional<PathPoint> PathModel::solve(double value, CollocationIterate start
   constexpr double rounding = 1e-13;
   constexpr int most_refinements = 12;
   LegendreNodes nodes(start.forces.coefficients().rows() > 0 ? start.forces.coefficients().rows()
-                                                             : Index(options().phases.nodes));
+                                                             : Index(options().exact.nodes));
   for (int i = 0;; ++i) {
     HeldSolution found = solve_held(family(), length(), value, start, nodes, held,
-                                    {options().phases.max_iterations, rounding, observer()});
+                                    {options().exact.max_iterations, rounding, observer()});
     if (!found.newton.converged || !found.direction.allFinite()) return std::nullopt;
     const EstimatedError error = error_of(found.newton, vibration());
     if (!std::isfinite(error.resolution)) return std::nullopt;
@@ -177,8 +177,8 @@ std::optional<PathPoint> PathModel::solve(double value, CollocationIterate start
     start = found.newton.iterate;
     value = found.value;
     const bool movable = held.kind != Held::Kind::force;  // the nodes of others are others
-    if (error.resolution <= options().phases.tolerance || !movable || i == most_refinements ||
-        !make_finer(start, nodes, error, options().phases) || !affords(start, nodes)) {
+    if (error.resolution <= options().exact.tolerance || !movable || i == most_refinements ||
+        !make_finer(start, nodes, error, options().exact) || !affords(start, nodes)) {
       found.direction *= forwards;
       return point_of(std::move(found), own, error.resolution);
     }
@@ -196,7 +196,7 @@ CollocationIterate with_forces(Layout layout, const LegendreNodes& nodes, const 
 
 CollocationIterate with_nodes(const CollocationIterate& iterate, const LegendreNodes& nodes) {
   return with_forces(iterate.layout, nodes, [&](const Panel& panel, double time) {
-    return iterate.forces.in_phase(panel.phase, time);
+    return iterate.forces.in_interval(panel.interval, time);
   });
 }
 
@@ -227,9 +227,9 @@ Prediction through(const std::vector<const PathPoint*>& points, double place) {
   const Index q = points.back()->iterate.forces.coefficients().rows();
   if (q == 0) return result;
   const auto force = [&](const Panel& panel, double time) {
-    const LayoutInterval& phase = layout.phases[static_cast<std::size_t>(panel.phase)];
-    const double begin = layout.begin(phase), length = layout.end(phase) - begin;
-    return weighted_force(points, weights, panel.phase, (time - begin) / length);
+    const LayoutInterval& interval = layout.intervals[static_cast<std::size_t>(panel.interval)];
+    const double begin = layout.begin(interval), length = layout.end(interval) - begin;
+    return weighted_force(points, weights, panel.interval, (time - begin) / length);
   };
   result.iterate = with_forces(layout, LegendreNodes(q), force);
   return result;

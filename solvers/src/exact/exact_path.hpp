@@ -13,7 +13,7 @@ namespace wavebalance::solvers::detail {
 /// A passage that moves by so much of a period has made a unit of arc length.
 inline constexpr double passage_scale = 0.05;
 
-/// A motion of a curve by its phases, and how the curve goes on from it.
+/// A motion of a curve by its intervals, and how the curve goes on from it.
 struct PathPoint : CurvePoint {
   CollocationIterate iterate;
   Eigen::VectorXd direction;   ///< as of HeldSolution, forwards along the curve
@@ -38,7 +38,7 @@ struct Prediction {
   CollocationIterate iterate;
 };
 
-/// A curve by phases of contact.
+/// A curve by contact intervals.
 class PathModel : public CurvePath {
  public:
   using CurvePath::CurvePath;
@@ -85,7 +85,7 @@ CollocationIterate with_nodes(const CollocationIterate& iterate, const LegendreN
 
 /// Along the tangent, to first order.
 Prediction along_tangent(const PathPoint& at, double distance, double speed);
-/// By the polynomial through points with the same phases, which may have other panels.
+/// By the polynomial through points with the same intervals, which may have other panels.
 Prediction through(const std::vector<const PathPoint*>& points, double place);
 
 }  // namespace wavebalance::solvers::detail

@@ -10,7 +10,7 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-// Numbers of the passages of a contact, in the order of its phases around the period.
+// Numbers of the passages of a contact, in the order of its intervals around the period.
 std::vector<int> passages_of(const Layout& layout, int contact) {
   std::vector<int> numbers;
   for (std::size_t i = 0; i < layout.passages.size(); ++i)
@@ -30,45 +30,46 @@ const Passage& passage(const Layout& layout, int number) {
   return layout.passages[static_cast<std::size_t>(number)];
 }
 
-// The phases on both sides of an interval become one; where they are the same, one that lasts the period.
-void join(std::vector<LayoutInterval>& phases, const Interval& interval) {
-  const auto before = std::find_if(phases.begin(), phases.end(),
+// The contact intervals on both sides of a gap become one; where they are the same, one that lasts the
+// period.
+void join(std::vector<LayoutInterval>& intervals, const Interval& interval) {
+  const auto before = std::find_if(intervals.begin(), intervals.end(),
                                    [&](const LayoutInterval& p) { return p.end == interval.from; });
-  const auto after = std::find_if(phases.begin(), phases.end(),
+  const auto after = std::find_if(intervals.begin(), intervals.end(),
                                   [&](const LayoutInterval& p) { return p.begin == interval.to; });
-  if (before == phases.end() || after == phases.end()) return;
+  if (before == intervals.end() || after == intervals.end()) return;
   if (before == after) {
     *before = {before->contact, before->piece, -1, -1, 1.0, {0.25, 0.5, 0.75}};
     return;
   }
   before->end = after->end;
   before->cuts.clear();
-  phases.erase(after);
+  intervals.erase(after);
 }
 
-// The whole turns that bring the end of each phase behind its begin.
+// The whole turns that bring the end of each interval behind its begin.
 void set_turns(Layout& layout) {
-  for (LayoutInterval& phase : layout.phases) {
-    if (phase.begin < 0) continue;
-    const double length = passage(layout, phase.end).time - passage(layout, phase.begin).time;
-    phase.turns = 1.0 - std::ceil(length);
-    if (length + phase.turns <= 0.0) phase.turns += 1.0;
+  for (LayoutInterval& part : layout.intervals) {
+    if (part.begin < 0) continue;
+    const double length = passage(layout, part.end).time - passage(layout, part.begin).time;
+    part.turns = 1.0 - std::ceil(length);
+    if (length + part.turns <= 0.0) part.turns += 1.0;
   }
 }
 
 void erase_passage(Layout& layout, int number) {
   layout.passages.erase(layout.passages.begin() + number);
-  for (LayoutInterval& phase : layout.phases) {
-    if (phase.begin > number) --phase.begin;
-    if (phase.end > number) --phase.end;
+  for (LayoutInterval& part : layout.intervals) {
+    if (part.begin > number) --part.begin;
+    if (part.end > number) --part.end;
   }
 }
 
 // Whether a contact on a piece that begins there ends with its force, before it leaves the piece.
 bool ends_with_force(const Layout& layout, int from, int to) {
-  const auto begins = [&](const LayoutInterval& phase) { return phase.begin == to; };
+  const auto begins = [&](const LayoutInterval& part) { return part.begin == to; };
   return passage(layout, to).breakpoint == no_breakpoint && !passage(layout, from).released &&
-         std::none_of(layout.phases.begin(), layout.phases.end(), begins);
+         std::none_of(layout.intervals.begin(), layout.intervals.end(), begins);
 }
 
 }  // namespace
@@ -96,19 +97,19 @@ double growth(const PathPoint& at, const Interval& interval) {
 }
 
 Layout with_cuts_of(const Layout& other, Layout layout) {
-  constexpr double least = 1e-3;  // of a phase, between cuts
-  for (LayoutInterval& phase : layout.phases) {
-    const double begin = layout.begin(phase), length = layout.end(phase) - begin;
+  constexpr double least = 1e-3;  // of an interval, between cuts
+  for (LayoutInterval& part : layout.intervals) {
+    const double begin = layout.begin(part), length = layout.end(part) - begin;
     const auto add = [&](double time) {
       const double share = (time - std::floor(time - begin) - begin) / length;
-      const bool apart = std::none_of(phase.cuts.begin(), phase.cuts.end(),
+      const bool apart = std::none_of(part.cuts.begin(), part.cuts.end(),
                                       [&](double cut) { return std::abs(cut - share) < least; });
-      if (share > least && share < 1.0 - least && apart) phase.cuts.push_back(share);
+      if (share > least && share < 1.0 - least && apart) part.cuts.push_back(share);
     };
-    for (const LayoutInterval& one : other.phases)
-      if (one.contact == phase.contact && one.piece == phase.piece)
+    for (const LayoutInterval& one : other.intervals)
+      if (one.contact == part.contact && one.piece == part.piece)
         for (const double cut : one.cuts) add(other.begin(one) + cut * (other.end(one) - other.begin(one)));
-    std::sort(phase.cuts.begin(), phase.cuts.end());
+    std::sort(part.cuts.begin(), part.cuts.end());
   }
   return layout;
 }
@@ -117,10 +118,10 @@ Layout without(Layout layout, std::vector<Interval> intervals) {
   const Layout before = layout;
   std::vector<int> numbers;
   for (const Interval& interval : intervals) {
-    std::erase_if(layout.phases, [&](const LayoutInterval& phase) {
-      return phase.begin == interval.from && phase.end == interval.to;
+    std::erase_if(layout.intervals, [&](const LayoutInterval& part) {
+      return part.begin == interval.from && part.end == interval.to;
     });
-    join(layout.phases, interval);
+    join(layout.intervals, interval);
     numbers.push_back(interval.from);
     numbers.push_back(interval.to);
   }

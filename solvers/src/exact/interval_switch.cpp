@@ -15,19 +15,20 @@ namespace {
 // force: a quarter of the length is tried, and so on.
 constexpr double short_interval = 1e-2, shortest_interval = 1e-5, vanishing_interval = 6e-3;
 
-// The phase of a contact at a time, if it has one.
-const LayoutInterval* phase_at(const Layout& layout, int contact, double time) {
-  for (const LayoutInterval& phase : layout.phases) {
-    if (phase.contact != contact) continue;
-    const double begin = layout.begin(phase), shifted = time - std::floor(time - begin);
-    if (shifted <= layout.end(phase)) return &phase;
+// The interval of a contact at a time, if it has one.
+const LayoutInterval* interval_at(const Layout& layout, int contact, double time) {
+  for (const LayoutInterval& part : layout.intervals) {
+    if (part.contact != contact) continue;
+    const double begin = layout.begin(part), shifted = time - std::floor(time - begin);
+    if (shifted <= layout.end(part)) return &part;
   }
   return nullptr;
 }
 
 // Whether a contact is on other pieces of its law by the two at a time.
 bool differ_at(const Layout& a, const Layout& b, int contact, double time) {
-  const LayoutInterval *const one = phase_at(a, contact, time), *const other = phase_at(b, contact, time);
+  const LayoutInterval *const one = interval_at(a, contact, time), *const other =
+                                                                       interval_at(b, contact, time);
   return one && other ? one->piece != other->piece : one != other;
 }
 
@@ -68,7 +69,7 @@ void keep_passages(const Layout& known, Layout& layout) {
     }
 }
 
-// The phases of the motion of a solution and the forces along it.
+// The intervals of the motion of a solution and the forces along it.
 CollocationIterate along_own_motion(const PathPoint& at) {
   constexpr Index instants = 1024;
   const CollocationModel& own = at.motion.parts->model;
@@ -151,7 +152,7 @@ std::optional<WithInterval> with_new_interval(const PathModel& model, const Path
   return std::nullopt;
 }
 
-// Where the phases without an interval graze, over the parameter, by the secant method; and forwards from
+// Where the motion without an interval grazes, over the parameter, by the secant method; and forwards from
 // there, towards motions that do not pass the breakpoint.
 std::optional<PathPoint> grazing_without(const PathModel& model, const PathPoint& start,
                                          const Grazing& grazing) {

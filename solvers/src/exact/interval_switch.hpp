@@ -6,7 +6,7 @@
 
 namespace wavebalance::solvers::detail {
 
-/// Where a curve goes on with other phases: the grazing motion, and the first point behind it.
+/// Where a curve goes on with other intervals: the grazing motion, and the first point behind it.
 struct Switch {
   PathPoint grazing;  ///< without the interval that appears or vanishes
   PathPoint next;
@@ -18,7 +18,7 @@ struct Switch {
   bool reverses = false;
 };
 
-/// An interval that `next`, a solution with the phases of `current`, has beyond them appears between the two.
+/// An interval that `next` has in addition to the intervals of `current` appears between the two.
 /// Nothing where it is none that grows from no length, or the solutions are not found.
 std::optional<Switch> appearance(const PathModel& model, const PathPoint& current, const PathPoint& next);
 

@@ -174,7 +174,7 @@ std::optional<MapPath::Closed> MapPath::closed_as_it_rests(MapStart start, const
   int unsettled = 0, i = 0;
   for (bool stalls = false; now->distance >= rounding && !stalls; ++i) {
     // Where a slider is about to slip, steps to either side need more than these.
-    if (i == options().phases.max_iterations) break;
+    if (i == options().exact.max_iterations) break;
     const bool own = !slopes;
     if (own) slopes = slopes_at(start, tolerance);
     if (!slopes) return std::nullopt;
@@ -304,7 +304,7 @@ std::shared_ptr<MapPoint> MapPath::solved(const MapStart& start, const Eigen::Ve
     const double error =
         safety * (other->displacement.reshaped() - point->displacement).norm() / point->displacement.norm();
     point->motion.estimated_error = std::max(error, 1e-13);
-    const bool met = error <= options().phases.tolerance;
+    const bool met = error <= options().exact.tolerance;
     point->motion.status = met ? ExactStatus::converged : ExactStatus::tolerance_missed;
     if (met) return point;
     if (tolerance_ < 1.1 * finest) return error < known ? point : nullptr;

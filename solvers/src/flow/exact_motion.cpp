@@ -109,7 +109,7 @@ class MotionSearch {
     motion_.iterations = iterations_;
     motion_.estimated_error = error_;
     motion_.status = cancelled_                     ? ExactStatus::cancelled
-                     : !found && exhausted_         ? ExactStatus::too_many_phases
+                     : !found && exhausted_         ? ExactStatus::too_many_intervals
                      : !found                       ? ExactStatus::not_found
                      : error_ <= options_.tolerance ? ExactStatus::converged
                                                     : ExactStatus::tolerance_missed;
@@ -226,7 +226,7 @@ ExactSolution exact_motion(const ExactProblem& problem, const Eigen::MatrixXd& s
   if (problem.laws.act_over_period()) return flow_motion(problem, start, options, start_force);
   ExactSolution motion = collocation_motion(problem, start, options, start_force);
   const bool failed =
-      motion.status == not_found || motion.status == too_many_phases || motion.status == tolerance_missed;
+      motion.status == not_found || motion.status == too_many_intervals || motion.status == tolerance_missed;
   if (!failed) return motion;
   if (motion.status == tolerance_missed) {
     const Eigen::VectorXd times =

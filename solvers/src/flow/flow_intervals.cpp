@@ -71,12 +71,12 @@ FrictionAlong friction_along(const ContactMachine& machine, const FrictionConsta
 
 // States of machines are numbered as the pieces of their laws are.
 void append_exact(const ContactMachine& machine, int tangents, const std::vector<Stay>& stays,
-                  std::vector<ForceInterval>& phases) {
+                  std::vector<ForceInterval>& intervals) {
   for (const Stay& stay : stays) {
     if (machine.law->kind(stay.state) == ContactState::open) continue;
     const int end = machine.row + machine.law->rows();
     for (int row = machine.row; row < end; ++row)
-      phases.push_back({row, row < end - tangents ? 1 : stay.state, stay.begin, stay.end});
+      intervals.push_back({row, row < end - tangents ? 1 : stay.state, stay.begin, stay.end});
   }
 }
 
@@ -149,11 +149,12 @@ ExactSolution motion_of(const ExactProblem& problem, const ContactFlow& flow, co
       motion.friction.push_back(friction_along(machine, *constants, stays));
       motion.cycles.push_back(flow.cycles()[c]);
     }
-    append_exact(machine, constants ? constants->tangents : 1, stays, motion.phases);
+    append_exact(machine, constants ? constants->tangents : 1, stays, motion.intervals);
   }
-  std::sort(motion.phases.begin(), motion.phases.end(), [](const ForceInterval& a, const ForceInterval& b) {
-    return std::pair(a.contact, a.begin) < std::pair(b.contact, b.begin);
-  });
+  std::sort(motion.intervals.begin(), motion.intervals.end(),
+            [](const ForceInterval& a, const ForceInterval& b) {
+              return std::pair(a.contact, a.begin) < std::pair(b.contact, b.begin);
+            });
   std::vector<Eigen::VectorXd> values;
   CellGrid grid = grid_of(flow, begin, problem.dynamics.contacts(), values);
   motion.impacts = impacts_of(flow, begin);

@@ -3,7 +3,7 @@
 
 namespace wavebalance::solvers::detail {
 
-/// The period of a flow from a start as a periodic motion with its phases, contacts with friction, impacts
+/// The period of a flow from a start as a periodic motion with its intervals, contacts with friction, impacts
 /// and parts.
 ExactSolution motion_of(const ExactProblem& problem, const ContactFlow& flow, const PeriodStart& start);
 

@@ -95,7 +95,7 @@ class MotionsSearch {
   // was found before or has converged now.
   template <class Start>
   std::optional<std::size_t> solve(int periods, const Start& start, MotionSource source) {
-    return add(periods, over(periods).phases(frequency_, start, exact_options()), source);
+    return add(periods, over(periods).exact_near(frequency_, start, exact_options()), source);
   }
 
   std::optional<std::size_t> add(int periods, const std::optional<ExactSolution>& near, MotionSource source) {
@@ -153,7 +153,7 @@ class MotionsSearch {
         unsolved_ = &known;
         return std::nullopt;
       }
-    const auto near = problem.phases(frequency_, whole, exact_options());
+    const auto near = problem.exact_near(frequency_, whole, exact_options());
     const auto found = add(periods, near, source);
     if (found || cancelled_ || !near) return found;
     told.status = near->status;

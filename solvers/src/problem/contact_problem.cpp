@@ -149,21 +149,21 @@ ExactProblem ContactProblem::exact_problem_here() {
   return problem;
 }
 
-std::optional<ExactNearResponse> ContactProblem::phases(const PeriodicResponse& response,
-                                                        const CollocationOptions& options) {
+std::optional<ExactNearResponse> ContactProblem::exact_near(const PeriodicResponse& response,
+                                                            const CollocationOptions& options) {
   if (!dynamics()) return std::nullopt;
   hold(response);
   return exact_near_response(condensed_, response, exact_problem_here(), options, exact_motion);
 }
 
-std::optional<ExactSolution> ContactProblem::phases(double frequency, const AttractorMotion& settled,
-                                                    const CollocationOptions& options) {
+std::optional<ExactSolution> ContactProblem::exact_near(double frequency, const AttractorMotion& settled,
+                                                        const CollocationOptions& options) {
   if (!settled.integrated()) return std::nullopt;
-  return phases(frequency, start_of(settled, contacts()), options);
+  return exact_near(frequency, start_of(settled, contacts()), options);
 }
 
-std::optional<ExactSolution> ContactProblem::phases(double frequency, const Motion& start,
-                                                    const CollocationOptions& options) {
+std::optional<ExactSolution> ContactProblem::exact_near(double frequency, const Motion& start,
+                                                        const CollocationOptions& options) {
   if (!dynamics()) return std::nullopt;
   return exact_motion(exact_problem(frequency), start.displacement, options, start.force);
 }
@@ -234,7 +234,7 @@ ExactSolution ContactProblem::motion_here(const ExactCurveOptions& options, cons
   if (moves_by_events()) {
     TimeSteppingOptions stepping;
     stepping.observer = how.observer;
-    ExactAttractor found = attractor_motion(exact_problem_here(), stepping, options.phases);
+    ExactAttractor found = attractor_motion(exact_problem_here(), stepping, options.exact);
     return found.load_periods == 1 ? std::move(found.motion) : ExactSolution();
   }
   const PeriodicResponse response = forced_response(condensed_, laws_, how, start.displacement, start.force);
@@ -242,7 +242,7 @@ ExactSolution ContactProblem::motion_here(const ExactCurveOptions& options, cons
   if (response.converged()) {
     // If no exact solution is found from a balance, it often is from the attractor, and its curves are
     // faster than curves of the flow.
-    ExactNearResponse found = exact_near_response(condensed_, response, exact_problem_here(), options.phases,
+    ExactNearResponse found = exact_near_response(condensed_, response, exact_problem_here(), options.exact,
                                                   laws_.act_over_period() ? flow_motion : collocation_motion);
     if (found.motion.parts != nullptr) return found.motion;
   }
@@ -251,7 +251,7 @@ ExactSolution ContactProblem::motion_here(const ExactCurveOptions& options, cons
   const AttractorMotion settled = solvers::settle(condensed_, laws_, settling);
   if (!settled.integrated()) return {};
   const Motion last = start_of(settled, contacts());
-  return exact_motion(exact_problem_here(), last.displacement, options.phases, last.force);
+  return exact_motion(exact_problem_here(), last.displacement, options.exact, last.force);
 }
 
 ExactCurve ContactProblem::exact_curve_here(SweepParameter parameter, const ExactCurveOptions& options,

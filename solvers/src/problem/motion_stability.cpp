@@ -24,7 +24,7 @@ MotionStability stability_of(const UnstableMultipliers& count) {
 }
 
 // All multipliers at once, or for many states only their count.
-MotionStability by_phases(const ExactSolution& motion, const ContactDynamics& dynamics, double frequency) {
+MotionStability is_exact(const ExactSolution& motion, const ContactDynamics& dynamics, double frequency) {
   const Eigen::VectorXcd all = motion.multipliers();
   MotionStability result;
   if (all.size() > 0) {
@@ -37,7 +37,7 @@ MotionStability by_phases(const ExactSolution& motion, const ContactDynamics& dy
   }
   if (result.unstable < 0 && has_undamped_pole(dynamics, 2.0 * std::numbers::pi * frequency))
     result.status = to_string(StabilityStatus::undamped);
-  result.by_phases = true;
+  result.is_exact = true;
   return result;
 }
 
@@ -92,8 +92,8 @@ MotionStability motion_stability(const CondensedProblem& problem, const ContactL
                                  const PeriodicResponse& response, const ContactDynamics& dynamics,
                                  const ExactSolution* motion) {
   const auto start = std::chrono::steady_clock::now();
-  const bool sought =
-      motion && (motion->status == ExactStatus::not_found || motion->status == ExactStatus::too_many_phases);
+  const bool sought = motion && (motion->status == ExactStatus::not_found ||
+                                 motion->status == ExactStatus::too_many_intervals);
   if (sought) {
     MotionStability unknown;
     const bool undamped = !laws.depend_on_velocity() && !laws.act_over_period() &&  // which may damp
@@ -101,7 +101,7 @@ MotionStability motion_stability(const CondensedProblem& problem, const ContactL
     unknown.status = undamped ? to_string(StabilityStatus::undamped) : to_string(motion->status);
     return unknown;
   }
-  MotionStability result = motion && motion->converged() ? by_phases(*motion, dynamics, response.frequency)
+  MotionStability result = motion && motion->converged() ? is_exact(*motion, dynamics, response.frequency)
                                                          : by_balance(problem, laws, response, dynamics);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -102,7 +102,7 @@ struct StructureCurve {
   SegmentStart start_of(const CurveSegment& stretch, bool forwards) const {
     constexpr double clear = 0.02;  // of a step near zigzags of the samples
     ExactAlongOptions near;
-    near.phases = options.phases;
+    near.exact = options.exact;
     near.max_distance = options.max_distance;
     SegmentStart start;
     for (const std::size_t steps : {0, 1, 3, 6}) {
@@ -133,7 +133,7 @@ struct StructureCurve {
     how.largest_step = options.largest_step;
     how.max_points = static_cast<int>(effort.points);
     how.max_operations = effort.operations;
-    how.phases = options.phases;
+    how.exact = options.exact;
     how.observer = observer;
     return exact_curve({problem.condensed(), problem.laws(), dynamics, curve.parameter}, start.motion, how);
   }

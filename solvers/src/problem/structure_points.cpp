@@ -182,7 +182,7 @@ std::string_view to_string(StructurePointStatus status) {
 }
 
 void StructurePointsOptions::validate() const {
-  phases.validate();
+  exact.validate();
   detail::require_positive("structure_points", "from", from);
   detail::require_positive("structure_points", "to", to);
   detail::require_positive("structure_points", "reach", reach);

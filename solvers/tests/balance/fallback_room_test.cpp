@@ -47,11 +47,11 @@ FrictionScene random_chain_that_rubs(std::mt19937& generator) {
   FrictionScene scene =
       testing::friction_scene(Eigen::MatrixXd::Identity(size, size), damping, stiffness, rows, load, omega,
                               std::vector<contact::CoulombLaw>(static_cast<std::size_t>(masses), law));
-  Eigen::VectorXcd constant(1), phased(2);
+  Eigen::VectorXcd constant(1), with_exact(2);
   constant << 1.0;
-  phased << 0.0, std::polar(1.0, -1.0);
+  with_exact << 0.0, std::polar(1.0, -1.0);
   scene.structure.forces.push_back({pressing, constant});
-  scene.structure.forces.push_back({across, phased});
+  scene.structure.forces.push_back({across, with_exact});
   return scene;
 }
 

@@ -35,7 +35,7 @@ TEST(CollocationMultipliers, AreThoseOfTheMonodromy) {
     if (trial % 2 == 1) random.laws = testing::with_dashpots(random, 0.02);
     const ContactDynamics dynamics(random.structure);
     const ExactSolution motion = motion_of(random.structure, random.laws, random.frequency, dynamics);
-    if (!motion.converged() || motion.phases.empty()) continue;
+    if (!motion.converged() || motion.intervals.empty()) continue;
     ++found;
     SCOPED_TRACE(trial);
     expect_same(motion.multipliers(), monodromy(dynamics, contact_stiffness(motion), random.frequency), 1e-7);
@@ -67,7 +67,7 @@ TEST(CollocationMultipliers, OfAContactThatStaysClosedAreExponentialsHoweverFast
     const ExactSolution motion = motion_of(
         structure, ContactLaws(AnyContactLaw(DampedStop{stop, damping, -1.0})), frequency, dynamics);
     ASSERT_TRUE(motion.converged());
-    ASSERT_EQ(motion.phases.size(), 1u);
+    ASSERT_EQ(motion.intervals.size(), 1u);
     const double decay = 0.5 * (0.1 + damping);
     const std::complex<double> turn = std::sqrt(std::complex<double>(decay * decay - stop - 1.0));
     const Eigen::VectorXcd expected{
@@ -158,7 +158,7 @@ TEST(CollocationMultipliers, AreTheSameWithPanelsThatOtherContactsDoNotCut) {
                         whole = exact_near_response(problem, random.laws, response, dynamics,
                                                     {.tolerance = 1e-7, .max_cut_panels = 0})
                                     .motion;
-    if (!cut.converged() || cut.phases.size() < 2) continue;
+    if (!cut.converged() || cut.intervals.size() < 2) continue;
     ++found;
     SCOPED_TRACE(trial);
     ASSERT_TRUE(whole.converged());
@@ -199,7 +199,7 @@ TEST(CollocationMultipliers, OfMoreStatesThanAreComputedAreCountedInTheVerdict) 
   const Eigen::VectorXcd all = motion.multipliers(440);
   ASSERT_GT(all.size(), 400);
   const MotionStability stability = motion_stability(problem, laws, response, dynamics, &motion);
-  EXPECT_TRUE(stability.by_phases);
+  EXPECT_TRUE(stability.is_exact);
   EXPECT_EQ(stability.unstable, outside(all));
   EXPECT_EQ(stability.status, outside(all) > 0 ? "unstable" : "stable");
 }
@@ -210,7 +210,7 @@ TEST(CollocationMultipliers, AreNotComputedForMoreStatesThanAllowed) {
   const ExactSolution motion =
       motion_of(random.structure, random.laws, random.frequency, ContactDynamics(random.structure));
   ASSERT_TRUE(motion.converged());
-  ASSERT_FALSE(motion.phases.empty());
+  ASSERT_FALSE(motion.intervals.empty());
   EXPECT_EQ(motion.multipliers(1).size(), 0);
 }
 

@@ -35,13 +35,13 @@ TEST(Collocation, OfAStructureThatIsFreeToMoveAreNearItsBalance) {
   const ContactLaws laws(AnyContactLaw(LinearContact{60.0, 0.01}));
   CondensedProblem problem = testing::fourier_problem(structure, 255, 1024, 1.1);
   const PeriodicResponse response = testing::solved_response(problem, laws);
-  const ExactNearResponse phases =
+  const ExactNearResponse exact =
       exact_near_response(problem, laws, response, ContactDynamics(structure), {});
-  ASSERT_TRUE(phases.motion.converged());
-  EXPECT_LT(phases.displacement_error, 1e-4);
-  EXPECT_LT(phases.force_error, 1e-2);
-  EXPECT_GE(phases.motion.phases.size(), 1u);
-  expect_motion(phases.motion, laws, 1e-7);
+  ASSERT_TRUE(exact.motion.converged());
+  EXPECT_LT(exact.displacement_error, 1e-4);
+  EXPECT_LT(exact.force_error, 1e-2);
+  EXPECT_GE(exact.motion.intervals.size(), 1u);
+  expect_motion(exact.motion, laws, 1e-7);
 }
 
 TEST(Collocation, OfContactsWithoutMassThatDeflectEachOtherSatisfyTheirLaws) {
@@ -50,12 +50,12 @@ TEST(Collocation, OfContactsWithoutMassThatDeflectEachOtherSatisfyTheirLaws) {
       {AnyContactLaw(LinearContact{150.0, 0.002}), AnyContactLaw(LinearContact{90.0, 0.003})});
   CondensedProblem problem = testing::fourier_problem(structure, 511, 2048, 1.3);
   const PeriodicResponse response = testing::solved_response(problem, laws);
-  const ExactNearResponse phases =
+  const ExactNearResponse exact =
       exact_near_response(problem, laws, response, ContactDynamics(structure), {});
-  ASSERT_TRUE(phases.motion.converged());
-  EXPECT_EQ(phases.motion.phases.size(), 2u);
-  EXPECT_LT(phases.displacement_error, 1e-4);
-  expect_motion(phases.motion, laws, 1e-7);
+  ASSERT_TRUE(exact.motion.converged());
+  EXPECT_EQ(exact.motion.intervals.size(), 2u);
+  EXPECT_LT(exact.displacement_error, 1e-4);
+  expect_motion(exact.motion, laws, 1e-7);
 }
 
 /// Rigid contacts of that chain without mass, with and without dashpots before them.
@@ -67,12 +67,12 @@ TEST_P(RigidIntervals, HoldTheGapAndPushOnly) {
   CondensedProblem problem = testing::fourier_problem(structure, 127, 512, 1.3);
   const PeriodicResponse response = testing::solved_response(problem, laws);
   const ContactDynamics dynamics(structure);
-  const ExactNearResponse phases = exact_near_response(problem, laws, response, dynamics, {});
-  ASSERT_TRUE(phases.motion.converged());
-  ASSERT_EQ(phases.motion.phases.size(), 2u);
-  EXPECT_LT(phases.displacement_error, 1e-2);
+  const ExactNearResponse exact = exact_near_response(problem, laws, response, dynamics, {});
+  ASSERT_TRUE(exact.motion.converged());
+  ASSERT_EQ(exact.motion.intervals.size(), 2u);
+  EXPECT_LT(exact.displacement_error, 1e-2);
   const Eigen::VectorXd times = uniform_times(500);
-  const Eigen::MatrixXd u = phases.motion.displacement(times), f = phases.motion.force(times);
+  const Eigen::MatrixXd u = exact.motion.displacement(times), f = exact.motion.force(times);
   for (int c = 0; c < 2; ++c) {
     const double gap = c == 0 ? 0.002 : 0.003;
     EXPECT_LT((u.row(c).array() - gap).maxCoeff(), 1e-9);
@@ -80,7 +80,7 @@ TEST_P(RigidIntervals, HoldTheGapAndPushOnly) {
     EXPECT_GT(f.row(c).maxCoeff(), 0.0);
     EXPECT_LT((f.row(c).array() * (u.row(c).array() - gap)).abs().maxCoeff(), 1e-7 * f.maxCoeff() * gap);
   }
-  EXPECT_EQ(contact_stiffness(phases.motion).status, StabilityStatus::no_finite_stiffness);
+  EXPECT_EQ(contact_stiffness(exact.motion).status, StabilityStatus::no_finite_stiffness);
   EXPECT_THROW(
       collocation_motion({dynamics, laws, Eigen::MatrixXcd::Zero(2, 2), 1.3}, Eigen::MatrixXd::Zero(2, 64)),
       std::invalid_argument);
@@ -89,20 +89,20 @@ TEST_P(RigidIntervals, HoldTheGapAndPushOnly) {
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutDashpots, RigidIntervals, ::testing::Values(0.0, 0.3));
 
 // With 127 functions the samples open the tip once more, for less than a sample.
-TEST(PhasesOfARigidContact, AreFoundThoughSamplesOpenForLessThanTheyResolve) {
+TEST(IntervalsOfARigidContact, AreFoundThoughSamplesOpenForLessThanTheyResolve) {
   const LinearStructure bar = testing::massless_tip(testing::jl14_case_2.structure());
   const ContactLaws laws(AnyContactLaw(testing::Rigid{testing::jl14_case_2.law.start}));
-  const auto phases_of = [&](int functions) {
+  const auto intervals_of = [&](int functions) {
     CondensedProblem problem = testing::fourier_problem(bar, functions, 4 * (functions + 1), 1275.0);
     const PeriodicResponse response = testing::solved_response(problem, laws);
     return exact_near_response(problem, laws, response, ContactDynamics(bar), {}).motion;
   };
-  const ExactSolution motion = phases_of(127), other = phases_of(255);
+  const ExactSolution motion = intervals_of(127), other = intervals_of(255);
   ASSERT_TRUE(motion.converged());
   ASSERT_TRUE(other.converged());
-  ASSERT_EQ(motion.phases.size(), 1u);
-  EXPECT_NEAR(motion.phases[0].begin, other.phases[0].begin, 1e-9);
-  EXPECT_NEAR(motion.phases[0].end, other.phases[0].end, 1e-9);
+  ASSERT_EQ(motion.intervals.size(), 1u);
+  EXPECT_NEAR(motion.intervals[0].begin, other.intervals[0].begin, 1e-9);
+  EXPECT_NEAR(motion.intervals[0].end, other.intervals[0].end, 1e-9);
 }
 
 // For many panels within a cell each pole is used once, for few a series for each pair: the effect of a
@@ -119,15 +119,15 @@ class Influence : public ::testing::Test {
     return {ContactDynamics(chain), 1.7};
   }
 
-  // One phase of each of `count` contacts.
-  static detail::Layout phases_of(int first, int count, bool cut_by_others) {
+  // One interval of each of `count` contacts.
+  static detail::Layout intervals_of(int first, int count, bool cut_by_others) {
     detail::Layout layout;
     layout.cut_by_others = cut_by_others;
     for (int c = first; c < first + count; ++c) {
       const int passage = static_cast<int>(layout.passages.size());
       layout.passages.push_back({c, 0.1 + 0.03 * c, 0.0});
       layout.passages.push_back({c, 0.9 - 0.05 * c, 0.0});
-      layout.phases.push_back({c, 1, passage, passage + 1, 0.0, {}});
+      layout.intervals.push_back({c, 1, passage, passage + 1, 0.0, {}});
     }
     return layout;
   }
@@ -138,7 +138,7 @@ class Influence : public ::testing::Test {
 
 TEST_F(Influence, OfAPanelAmongManyIsThatOfThePanelAlone) {
   const auto influence_of = [&](int first, int count) {
-    return response.influence(*response.cells(phases_of(first, count, false).grid(), nodes), true);
+    return response.influence(*response.cells(intervals_of(first, count, false).grid(), nodes), true);
   };
   const detail::Influence many = influence_of(0, contacts);
   for (int c = 0; c < contacts; ++c) {
@@ -156,7 +156,7 @@ TEST_F(Influence, OfAPanelAmongManyIsThatOfThePanelAlone) {
 TEST_F(Influence, TakesForcesToTheMotionThatTheyMake) {
   for (const bool cut : {true, false})
     for (const int count : {1, 3, contacts}) {
-      const detail::CellGrid grid = phases_of(0, count, cut).grid();
+      const detail::CellGrid grid = intervals_of(0, count, cut).grid();
       const auto period = response.cells(grid, nodes);
       const auto n = q * Eigen::Index(grid.panels.size());
       const detail::Influence influence = response.influence(*period, true);
@@ -179,7 +179,7 @@ TEST(Layout, DividedInEveryPanelHasNoCellWithoutLengthAfterItsPassagesMove) {
   detail::Layout layout;
   const double least = 0.5 * 0.1 * std::pow(0.15, 4);  // four layers at an end of the shortest panel
   layout.passages = {{0, 0.1, 0.0}, {0, 0.9, 0.0}, {1, 0.2, 0.0}, {1, 0.7, 0.0}};
-  layout.phases = {{0, 1, 0, 1, 0.0, {}}, {1, 1, 2, 3, 0.0, {}}};
+  layout.intervals = {{0, 1, 0, 1, 0.0, {}}, {1, 1, 2, 3, 0.0, {}}};
   for (int round = 0; round < 4; ++round) {
     detail::CellGrid grid = layout.grid();
     const auto count = nodes.count() * Eigen::Index(grid.panels.size());
@@ -207,8 +207,8 @@ TEST(Collocation, OfContactsThatPassTogetherAreThoseOfOne) {
   const ExactSolution motion =
       exact_near_response(problem, laws, response, ContactDynamics(structure), {}).motion;
   ASSERT_TRUE(motion.converged());
-  ASSERT_EQ(motion.phases.size(), 2u);
-  EXPECT_NEAR(motion.phases[0].begin, motion.phases[1].begin, 1e-11);
+  ASSERT_EQ(motion.intervals.size(), 2u);
+  EXPECT_NEAR(motion.intervals[0].begin, motion.intervals[1].begin, 1e-11);
   expect_motion(motion, laws, 1e-7);
 }
 

@@ -17,7 +17,7 @@ using testing::Jl14Case;
 
 using testing::cosine_load;
 
-/// A case of the bar with its balance, whose phases are found to any tolerance.
+/// A case of the bar with its balance, whose intervals are found to any tolerance.
 struct BarCase {
   explicit BarCase(const Jl14Case& jl14, int functions = 63)
       : structure(jl14.structure()),
@@ -28,7 +28,7 @@ struct BarCase {
     response = forced_response(problem, law, {});
   }
 
-  ExactNearResponse phases(double tolerance, int max_nodes = 24) const {
+  ExactNearResponse exact(double tolerance, int max_nodes = 24) const {
     return exact_near_response(problem, law, response, dynamics,
                                {.tolerance = tolerance, .max_nodes = max_nodes});
   }
@@ -43,10 +43,11 @@ struct BarCase {
 TEST(Collocation, OfBothCasesOfTheBarAreWhatTimeSteppingFinds) {
   for (const Jl14Case& jl14 : {testing::jl14_case_1, testing::jl14_case_2}) {
     const BarCase bar(jl14);
-    const ExactNearResponse found = bar.phases(1e-11);
+    const ExactNearResponse found = bar.exact(1e-11);
     ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);
-    ASSERT_EQ(found.motion.phases.size(), 1u);
-    EXPECT_NEAR(found.motion.phases[0].length(), jl14.contact_fraction, 1.0 / 1024.0);  // a share of samples
+    ASSERT_EQ(found.motion.intervals.size(), 1u);
+    EXPECT_NEAR(found.motion.intervals[0].length(), jl14.contact_fraction,
+                1.0 / 1024.0);  // a share of samples
     const TimeSteppingResult stepped =
         testing::stepped_motion(bar.structure, bar.law, jl14.frequency_hz, 512);
     EXPECT_LT(distance(found.motion.displacement(uniform_times(512)), stepped.contacts.displacement), 1e-8);
@@ -58,7 +59,7 @@ TEST(Collocation, OfBothCasesOfTheBarAreWhatTimeSteppingFinds) {
 TEST(Collocation, ConvergeGeometricallyOverTheNodesOfAPanel) {
   const BarCase bar(testing::jl14_case_2);
   const Eigen::VectorXd times = uniform_times(256);
-  const Eigen::MatrixXd exact = bar.phases(1e-13).motion.displacement(times);
+  const Eigen::MatrixXd exact = bar.exact(1e-13).motion.displacement(times);
   // Errors that a prototype in another language had, computed independently.
   for (const auto& [nodes, expected] : {std::pair{8, 2.5e-6}, {12, 9e-8}, {16, 3.8e-9}, {24, 5.6e-12}}) {
     const ExactSolution found =
@@ -76,7 +77,7 @@ TEST(Collocation, ConvergeGeometricallyOverTheNodesOfAPanel) {
 // The layer of fast modes is only where contact begins: the panel that was cut for another one at its end
 // is joined with its neighbour, or there would be 83 unknowns.
 TEST(Collocation, HaveNoPanelsForLayersThatAreNotThere) {
-  const ExactSolution found = BarCase(testing::jl14_case_1).phases(1e-8, 32).motion;
+  const ExactSolution found = BarCase(testing::jl14_case_1).exact(1e-8, 32).motion;
   ASSERT_TRUE(found.converged());
   EXPECT_LE(found.unknowns, 60);
 }
@@ -92,12 +93,12 @@ TEST(Collocation, OfRandomStructuresSatisfyTheirLawsAndAreNearTheBalance) {
     const PeriodicResponse response = forced_response(problem, laws, {});
     if (!response.converged()) continue;
     ++solved;
-    const ExactNearResponse phases =
+    const ExactNearResponse exact =
         exact_near_response(problem, laws, response, ContactDynamics(random.structure), {.tolerance = 1e-10});
-    if (!phases.motion.converged()) continue;
+    if (!exact.motion.converged()) continue;
     ++found;
-    expect_motion(phases.motion, laws, 1e-6);
-    EXPECT_LT(phases.displacement_error, damped ? 1e-2 : 2e-3);
+    expect_motion(exact.motion, laws, 1e-6);
+    EXPECT_LT(exact.displacement_error, damped ? 1e-2 : 2e-3);
   }
   EXPECT_GE(solved, 27);
   EXPECT_GE(found, 0.95 * solved);
@@ -109,7 +110,7 @@ TEST(Collocation, OfAMotionWithoutContactAreNone) {
   const PeriodicResponse response = forced_response(bar.problem, distant, {});
   const ExactNearResponse found = exact_near_response(bar.problem, distant, response, bar.dynamics);
   ASSERT_TRUE(found.motion.converged());
-  EXPECT_TRUE(found.motion.phases.empty());
+  EXPECT_TRUE(found.motion.intervals.empty());
   EXPECT_EQ(found.motion.unknowns, 0);
   EXPECT_LT(found.displacement_error, 1e-12);
 }
@@ -121,8 +122,8 @@ TEST(Collocation, OfContactThatLastsHaveOnePhaseOfAWholePeriod) {
   const ExactNearResponse found =
       exact_near_response(bar.problem, pressed, response, bar.dynamics, {.tolerance = 1e-11});
   ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);
-  ASSERT_EQ(found.motion.phases.size(), 1u);
-  EXPECT_TRUE(found.motion.phases[0].always());
+  ASSERT_EQ(found.motion.intervals.size(), 1u);
+  EXPECT_TRUE(found.motion.intervals[0].always());
   // The whole is linear, so that the balance is exact.
   EXPECT_LT(found.displacement_error, 1e-10);
 }
@@ -139,10 +140,10 @@ TEST(Collocation, OfASpringThatActsAlwaysAreThoseOfItsFullBalance) {
 
 TEST(Collocation, AreFoundWhereTheyPassTheEndOfThePeriod) {
   const BarCase bar(testing::jl14_case_1);
-  const ExactNearResponse found = bar.phases(1e-9);
-  ASSERT_EQ(found.motion.phases.size(), 1u);
-  EXPECT_GT(found.motion.phases[0].end, 1.0);
-  EXPECT_LT(found.motion.phases[0].begin, 1.0);
+  const ExactNearResponse found = bar.exact(1e-9);
+  ASSERT_EQ(found.motion.intervals.size(), 1u);
+  EXPECT_GT(found.motion.intervals[0].end, 1.0);
+  EXPECT_LT(found.motion.intervals[0].begin, 1.0);
 }
 
 TEST(Collocation, NameWhatTheyCannotSolve) {
@@ -180,7 +181,7 @@ TEST(Collocation, EndWhereTheObserverStopsThemWithTheMotionFoundBefore) {
   ASSERT_NE(coarse.parts, nullptr);
   EXPECT_GT(coarse.estimated_error, 1e-12);
   const Eigen::VectorXd times = uniform_times(64);
-  EXPECT_LT(distance(coarse.displacement(times), bar.phases(1e-12).motion.displacement(times)), 1e-2);
+  EXPECT_LT(distance(coarse.displacement(times), bar.exact(1e-12).motion.displacement(times)), 1e-2);
 }
 
 TEST(Collocation, RejectSizesAndOptionsThatDoNotFit) {

@@ -15,7 +15,7 @@ double relative(const Eigen::MatrixXd& values, const Eigen::MatrixXd& exact) {
   return (values - exact).norm() / exact.norm();
 }
 
-/// A structure with its laws, a balance of it and the phases near that.
+/// A structure with its laws, a balance of it and the intervals near that.
 struct Solved {
   Solved(const LinearStructure& structure, const ContactLaws& laws, double frequency, int functions)
       : problem(testing::fourier_pair(functions, 4 * (functions + 1)), structure, testing::cosine_load()) {
@@ -36,16 +36,17 @@ Solved solved(const Jl14Case& jl14, int functions = 63) {
   return {jl14.structure(), ContactLaws(jl14.law), jl14.frequency_hz, functions};
 }
 
-/// Simpson's rule on the phases of one contact.
+/// Simpson's rule on the intervals of one contact.
 std::complex<double> integrated_harmonic(const ExactSolution& motion, int n) {
   constexpr int intervals = 20000;
   std::complex<double> sum = 0.0;
-  for (const ForceInterval& phase : motion.phases) {
-    const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(intervals + 1, phase.begin, phase.end);
+  for (const ForceInterval& interval : motion.intervals) {
+    const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(intervals + 1, interval.begin, interval.end);
     const Eigen::RowVectorXd force = motion.force(times).row(0);
     for (int k = 0; k <= intervals; ++k) {
       const double weight = k == 0 || k == intervals ? 1.0 : k % 2 == 1 ? 4.0 : 2.0;
-      sum += weight * phase.length() / (3.0 * intervals) * force[k] * std::polar(1.0, -two_pi * n * times[k]);
+      sum +=
+          weight * interval.length() / (3.0 * intervals) * force[k] * std::polar(1.0, -two_pi * n * times[k]);
     }
   }
   return n == 0 ? sum : 2.0 * sum;
@@ -65,7 +66,7 @@ TEST(ExactStructureMotion, HaveTheFourierCoefficientsOfTheirForces) {
   }
 }
 
-TEST(ExactStructureMotion, AgreeWithThePhasesAtTheContacts) {
+TEST(ExactStructureMotion, AgreeWithTheForcesAtTheContacts) {
   for (const Jl14Case& jl14 : {testing::jl14_case_1, testing::jl14_case_2}) {
     const Solved bar = solved(jl14);
     constexpr int points = 300;

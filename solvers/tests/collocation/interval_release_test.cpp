@@ -30,10 +30,10 @@ ContactLaws pushing_laws(const RandomCase& random, Kind kind) {
 
 int releases_of(const ExactSolution& motion, const ContactLaws& laws) {
   int count = 0;
-  for (const ForceInterval& phase : motion.phases) {
-    if (phase.always()) continue;
-    const double end = motion.displacement(Eigen::VectorXd::Constant(1, phase.end))(phase.contact);
-    if (end > laws[phase.contact].gap() * (1.0 + 1e-6)) ++count;
+  for (const ForceInterval& interval : motion.intervals) {
+    if (interval.always()) continue;
+    const double end = motion.displacement(Eigen::VectorXd::Constant(1, interval.end))(interval.contact);
+    if (end > laws[interval.contact].gap() * (1.0 + 1e-6)) ++count;
   }
   return count;
 }
@@ -52,16 +52,16 @@ TEST_P(IntervalReleases, EndContactWhereTheForceVanishes) {
     if (!response.converged()) continue;
     ++solved;
     const ContactDynamics dynamics(random.structure);
-    const ExactNearResponse phases =
+    const ExactNearResponse exact =
         exact_near_response(problem, laws, response, dynamics, {.tolerance = 1e-9});
-    if (!phases.motion.converged()) continue;
+    if (!exact.motion.converged()) continue;
     ++found;
-    releases += releases_of(phases.motion, laws);
+    releases += releases_of(exact.motion, laws);
     // A power of 3/2 is not analytic where contact begins.
-    expect_motion(phases.motion, laws, GetParam() == Kind::hunt_crossley ? 2e-5 : 1e-6);
-    EXPECT_LT(phases.displacement_error, 1e-2);
-    expect_same(phases.motion.multipliers(),
-                monodromy(dynamics, contact_stiffness(phases.motion), random.frequency), 1e-5);
+    expect_motion(exact.motion, laws, GetParam() == Kind::hunt_crossley ? 2e-5 : 1e-6);
+    EXPECT_LT(exact.displacement_error, 1e-2);
+    expect_same(exact.motion.multipliers(),
+                monodromy(dynamics, contact_stiffness(exact.motion), random.frequency), 1e-5);
   }
   EXPECT_GE(solved, 10);
   EXPECT_GE(found, 0.95 * solved);
@@ -82,9 +82,9 @@ TEST(IntervalReleases, OfAnOscillatorAreThoseOfTheFlow) {
       exact_near_response(problem, laws, forced_response(problem, laws, {}), dynamics, {.tolerance = 1e-11})
           .motion;
   ASSERT_TRUE(motion.converged());
-  ASSERT_EQ(motion.phases.size(), 1u);
-  EXPECT_NEAR(motion.phases[0].begin, 0.08284319588834596, 1e-9);
-  EXPECT_NEAR(motion.phases[0].end, 0.25708609551033634, 1e-9);
+  ASSERT_EQ(motion.intervals.size(), 1u);
+  EXPECT_NEAR(motion.intervals[0].begin, 0.08284319588834596, 1e-9);
+  EXPECT_NEAR(motion.intervals[0].end, 0.25708609551033634, 1e-9);
   EXPECT_NEAR(motion.displacement(Eigen::VectorXd::Zero(1))(0, 0), -0.7023779, 1e-7);
   EXPECT_NEAR(motion.velocity(Eigen::VectorXd::Zero(1))(0, 0), 2.69438977, 1e-7);
   const Eigen::VectorXcd expected{{{0.24648623, 0.08912041}, {0.24648623, -0.08912041}}};
@@ -100,12 +100,11 @@ TEST(IntervalReleases, OfAStructureThatIsFreeToMoveAreNearItsBalance) {
       {AnyContactLaw(PushingStop{300.0, 15.0, 0.0005}), AnyContactLaw(PushingStop{300.0, 15.0, 0.0005})});
   CondensedProblem problem = testing::fourier_problem(structure, 255, 1024, 2.5);
   const PeriodicResponse response = testing::solved_response(problem, laws);
-  const ExactNearResponse phases =
-      exact_near_response(problem, laws, response, dynamics, {.tolerance = 1e-9});
-  ASSERT_TRUE(phases.motion.converged()) << to_string(phases.motion.status);
-  EXPECT_GE(releases_of(phases.motion, laws), 1);
-  expect_motion(phases.motion, laws, 1e-6);
-  EXPECT_LT(phases.displacement_error, 1e-2);
+  const ExactNearResponse exact = exact_near_response(problem, laws, response, dynamics, {.tolerance = 1e-9});
+  ASSERT_TRUE(exact.motion.converged()) << to_string(exact.motion.status);
+  EXPECT_GE(releases_of(exact.motion, laws), 1);
+  expect_motion(exact.motion, laws, 1e-6);
+  EXPECT_LT(exact.displacement_error, 1e-2);
 }
 
 }  // namespace

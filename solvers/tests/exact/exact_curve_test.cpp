@@ -145,7 +145,7 @@ TEST(ExactCurve, GrazesOverTheLoadWhereTheFreeMotionReachesTheGap) {
   EXPECT_GT(free, 0.9 * amplitude);  // of samples
 }
 
-TEST(ExactCurve, OfRandomStructuresConsistsOfMotionsThatPhasesFindWithoutIt) {
+TEST(ExactCurve, OfRandomStructuresConsistsOfMotionsThatCollocationFindsWithoutIt) {
   std::mt19937 generator(29);
   for (int trial = 0; trial < 12; ++trial) {
     const RandomCase random(generator, 1 + trial % 3);
@@ -193,8 +193,8 @@ TEST(ExactCurve, IsEndedByItsObserverAndByItsLimits) {
   const ExactCurve few = traced.over_frequency(0.1, 0.35, options);
   EXPECT_EQ(few.status, SweepStatus::point_limit);
   EXPECT_EQ(few.points.size(), 7u);
-  options.phases.tolerance = 1e-30;
-  options.phases.max_operations = 1.0;  // which allow no finer panels
+  options.exact.tolerance = 1e-30;
+  options.exact.max_operations = 1.0;  // which allow no finer panels
   Traced touching(unit_oscillator(0.05, 0.15), LinearContact{4.0, 1.0}, 0.155);
   const ExactCurve rough = touching.over_frequency(0.155, 0.35, options);
   ASSERT_EQ(rough.points.size(), 7u);

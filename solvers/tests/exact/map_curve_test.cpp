@@ -1,4 +1,4 @@
-// Exact curves by the map of the flow against curves by phases and closed forms.
+// Exact curves by the map of the flow against curves by collocation and closed forms.
 
 #include "support/collocation_cases.hpp"
 #include "support/friction_motions.hpp"
@@ -21,8 +21,8 @@ void expect_events(const ExactCurve& curve, const std::vector<std::pair<Type, do
   }
 }
 
-// Curves by phases share the poles with the flow, and no equation.
-TEST(MapCurve, OfAnElasticStopHasTheSpecialPointsOfTheCurveByPhases) {
+// Curves by collocation share the poles with the flow, and no equation.
+TEST(MapCurve, OfAnElasticStopHasTheSpecialPointsOfTheCurveByCollocation) {
   const LinearStructure structure = testing::unit_oscillator(0.05, 0.15);
   const ContactLaws laws = testing::LinearContact{4.0, 1.0};
   const ContactDynamics dynamics(structure);
@@ -51,7 +51,7 @@ TEST(MapCurve, IsCancelledAndKeepsItsPoints) {
   options.observer = [](const Progress& progress) { return progress.step < 5; };
   const ExactCurve curve =
       exact_curve({first.problem, first.scene.contact_laws(), first.dynamics, SweepParameter::frequency},
-                  first.phases.motion, options);
+                  first.exact.motion, options);
   EXPECT_EQ(to_string(curve.status), "cancelled");
   EXPECT_EQ(curve.points.size(), 5u);
 }

@@ -1,5 +1,5 @@
-// Exact motions by the map of the flow against the equations of phases; against event-driven integrations by
-// pytest, in tests/impacts, tests/friction and tests/mixtures.
+// Exact motions by the map of the flow against the equations of collocation; against event-driven
+// integrations by pytest, in tests/impacts, tests/friction and tests/mixtures.
 #include "wavebalance/solvers/flow/exact_motion.hpp"
 
 #include "support/collocation_cases.hpp"
@@ -20,7 +20,7 @@ TEST(ExactMotion, HaveTheForcesOfTheLawAtContactsWithoutMass) {
   scene.laws = {contact::CoulombLaw({0.5, 200.0, 0.4}), contact::CoulombLaw({0.5, 300.0, 0.2})};
   const FrictionMotion found(scene);
   ASSERT_TRUE(found.response.converged());
-  const ExactSolution& motion = found.phases.motion;
+  const ExactSolution& motion = found.exact.motion;
   ASSERT_EQ(to_string(motion.status), "converged");
   ASSERT_EQ(motion.cycles.size(), 2u);
   for (const FrictionCycle& cycle : motion.cycles) EXPECT_GT(cycle.share(ContactState::slip), 0.0);
@@ -34,10 +34,10 @@ TEST(ExactMotion, TheEstimatedErrorIsAboveTheError) {
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(512, 0.0, 1.0 - 1.0 / 512);
   for (const FrictionRow& row : testing::friction_rows()) {
     if (row.scene.laws.front().tangents() > 1) continue;
-    const ExactSolution exact = FrictionMotion(row.scene, {.tolerance = 1e-10, .nodes = 16}).phases.motion;
+    const ExactSolution exact = FrictionMotion(row.scene, {.tolerance = 1e-10, .nodes = 16}).exact.motion;
     for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
       const ExactSolution motion =
-          FrictionMotion(row.scene, {.tolerance = tolerance, .nodes = 4}).phases.motion;
+          FrictionMotion(row.scene, {.tolerance = tolerance, .nodes = 4}).exact.motion;
       ASSERT_EQ(to_string(motion.status), "converged") << row.name;
       EXPECT_LE(motion.estimated_error, tolerance);
       const Eigen::MatrixXd u = exact.displacement(times);
@@ -47,9 +47,9 @@ TEST(ExactMotion, TheEstimatedErrorIsAboveTheError) {
   }
 }
 
-// The equations of phases share the poles with the flow, and no equation. Every other stop has a dashpot,
-// does not pull, or both.
-TEST(ExactMotion, OfElasticContactAreThoseOfThePhasesWithTheirMultipliers) {
+// The equations of collocation share the poles with the flow, and no equation. Every other stop has a
+// dashpot, does not pull, or both.
+TEST(ExactMotion, OfElasticContactAgreeWithCollocationAndItsMultipliers) {
   std::mt19937 generator(11);
   int found = 0;
   for (int trial = 0; trial < 12; ++trial) {
@@ -69,24 +69,24 @@ TEST(ExactMotion, OfElasticContactAreThoseOfThePhasesWithTheirMultipliers) {
     CondensedProblem problem = testing::fourier_problem(random.structure, 127, 512, random.frequency);
     const ContactDynamics dynamics(random.structure);
     const PeriodicResponse response = forced_response(problem, random.laws, {});
-    const ExactSolution phases =
+    const ExactSolution exact =
         exact_near_response(problem, random.laws, response, dynamics, {.tolerance = 1e-11}).motion;
-    if (!phases.converged() || phases.phases.empty()) continue;
+    if (!exact.converged() || exact.intervals.empty()) continue;
     ++found;
     const ExactSolution motion =
         exact_near_response(problem, random.laws, response, dynamics, {.tolerance = 1e-10}, flow_motion)
             .motion;
     ASSERT_EQ(to_string(motion.status), "converged") << trial;
     const Eigen::VectorXd times = testing::uniform_times(256);
-    EXPECT_LE(testing::distance(motion.displacement(times), phases.displacement(times)), 1e-9) << trial;
-    testing::expect_same(motion.multipliers(), phases.multipliers(), 1e-7);
+    EXPECT_LE(testing::distance(motion.displacement(times), exact.displacement(times)), 1e-9) << trial;
+    testing::expect_same(motion.multipliers(), exact.multipliers(), 1e-7);
     EXPECT_EQ(contact_stiffness(motion).status, StabilityStatus::unsupported_law);
-    ASSERT_EQ(motion.phases.size(), phases.phases.size()) << trial;
-    for (std::size_t i = 0; i < phases.phases.size(); ++i) {
-      EXPECT_EQ(motion.phases[i].contact, phases.phases[i].contact);
-      EXPECT_EQ(motion.phases[i].piece, phases.phases[i].piece);
-      EXPECT_NEAR(motion.phases[i].begin, phases.phases[i].begin, 1e-8);
-      EXPECT_NEAR(motion.phases[i].end, phases.phases[i].end, 1e-8);
+    ASSERT_EQ(motion.intervals.size(), exact.intervals.size()) << trial;
+    for (std::size_t i = 0; i < exact.intervals.size(); ++i) {
+      EXPECT_EQ(motion.intervals[i].contact, exact.intervals[i].contact);
+      EXPECT_EQ(motion.intervals[i].piece, exact.intervals[i].piece);
+      EXPECT_NEAR(motion.intervals[i].begin, exact.intervals[i].begin, 1e-8);
+      EXPECT_NEAR(motion.intervals[i].end, exact.intervals[i].end, 1e-8);
     }
   }
   EXPECT_GE(found, 8);
@@ -105,10 +105,10 @@ TEST(ExactMotion, AreRefusedWithTheReason) {
   const FrictionScene chain = testing::chain_of_three(3.0, 0.85);
   FrictionScene loss = chain;
   loss.structure.loss_factor = 0.01;
-  EXPECT_EQ(FrictionMotion(loss, {}, 15, 64).phases.motion.status, structural_damping);
-  EXPECT_EQ(FrictionMotion(chain, {.max_operations = 1.0}, 15, 64).phases.motion.status, too_many_phases);
+  EXPECT_EQ(FrictionMotion(loss, {}, 15, 64).exact.motion.status, structural_damping);
+  EXPECT_EQ(FrictionMotion(chain, {.max_operations = 1.0}, 15, 64).exact.motion.status, too_many_intervals);
   EXPECT_EQ(
-      FrictionMotion(chain, {.observer = [](const Progress&) { return false; }}, 15, 64).phases.motion.status,
+      FrictionMotion(chain, {.observer = [](const Progress&) { return false; }}, 15, 64).exact.motion.status,
       cancelled);
 }
 
@@ -120,11 +120,11 @@ TEST(ExactMotion, APeriodThatTakesMoreThanTheOperationsIsNotBegun) {
                                      return true;
                                    }};
   const FrictionMotion chain(testing::chain_of_three(3.0, 0.85), options, 15, 64);
-  EXPECT_EQ(to_string(chain.phases.motion.status), "too_many_phases");
+  EXPECT_EQ(to_string(chain.exact.motion.status), "too_many_phases");
   EXPECT_EQ(periods, 0);
 }
 
-// Phases of too few nodes miss the tolerance, so that the flow is tried, too.
+// Collocation with too few nodes misses the tolerance, so that the flow is tried, too.
 TEST(ExactMotion, IsCancelledWhereTheSecondSearchIs) {
   std::mt19937 generator(11);
   const testing::RandomCase random(generator, 1);

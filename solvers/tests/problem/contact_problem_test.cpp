@@ -50,10 +50,10 @@ TEST(ContactProblem, AnswersQuestionsInAnyOrder) {
   EXPECT_EQ(problem.respond(0.3).displacement, high.displacement);
 }
 
-TEST(ContactProblem, FindsTheSamePhasesFromTheSettledMotionAsFromABalance) {
+TEST(ContactProblem, FindsTheSameIntervalsFromTheSettledMotionAsFromABalance) {
   ContactProblem problem = stopped();
-  const auto balance = problem.phases(problem.respond(0.2), {.tolerance = 1e-11});
-  const auto settled = problem.phases(0.2, problem.settle(0.2), {.tolerance = 1e-11});
+  const auto balance = problem.exact_near(problem.respond(0.2), {.tolerance = 1e-11});
+  const auto settled = problem.exact_near(0.2, problem.settle(0.2), {.tolerance = 1e-11});
   ASSERT_TRUE(balance && settled);
   ASSERT_TRUE(balance->motion.converged() && settled->converged());
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(100, 0.0, 0.99);

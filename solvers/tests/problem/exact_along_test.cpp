@@ -36,14 +36,14 @@ TEST(ExactAlong, AreThoseOfEachResponseOnAnyNumberOfThreads) {
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const SweepPoint& point = curve.points[i];
     const PeriodicResponse response = problem.response(curve, point.frequency, point.unknown);
-    const ExactNearResponse found = problem.phases(response).value();
+    const ExactNearResponse found = problem.exact_near(response).value();
     ASSERT_TRUE(one.points[i] && three.points[i]);
     EXPECT_EQ(one.points[i]->status, found.motion.status);
     EXPECT_EQ(one.points[i]->displacement_error, found.displacement_error);
     EXPECT_EQ(three.points[i]->displacement_error, found.displacement_error);
     if (!found.motion.converged()) continue;
     EXPECT_EQ(one.points[i]->stability->unstable, problem.stability(response, &found.motion).unstable);
-    EXPECT_TRUE(one.points[i]->stability->by_phases);
+    EXPECT_TRUE(one.points[i]->stability->is_exact);
   }
 }
 
@@ -68,7 +68,7 @@ TEST(ExactAlong, AreNotThoseOfAMotionFartherAwayThanAllowed) {
   const SweepPoint& point = curve.points.back();
   ContactProblem problem = stopped_oscillator();
   const PeriodicResponse response = problem.response(curve, point.frequency, point.unknown);
-  const ExactNearResponse found = problem.phases(response).value();
+  const ExactNearResponse found = problem.exact_near(response).value();
   ASSERT_EQ(found.motion.status, ExactStatus::converged);
   ExactAlongOptions options;
   options.max_distance = 0.5 * found.displacement_error;

@@ -8,16 +8,16 @@
 namespace wavebalance::solvers {
 namespace testing {
 
-// By what the force of a contact grows where phases end and begin, N.
+// By what the force of a contact grows where intervals end and begin, N.
 inline double force_jump(const detail::CollocationIterate& iterate, int contact, double time) {
   const auto is_now = [time](double at) { return std::abs(at - time - std::round(at - time)) < 1e-12; };
   double jump = 0.0;
-  for (std::size_t p = 0; p < iterate.layout.phases.size(); ++p) {
-    const detail::LayoutInterval& phase = iterate.layout.phases[p];
-    if (phase.contact != contact || phase.begin < 0) continue;
-    const double begin = iterate.layout.begin(phase), end = iterate.layout.end(phase);
-    if (is_now(begin)) jump += iterate.forces.in_phase(static_cast<int>(p), begin);
-    if (is_now(end)) jump -= iterate.forces.in_phase(static_cast<int>(p), end);
+  for (std::size_t p = 0; p < iterate.layout.intervals.size(); ++p) {
+    const detail::LayoutInterval& interval = iterate.layout.intervals[p];
+    if (interval.contact != contact || interval.begin < 0) continue;
+    const double begin = iterate.layout.begin(interval), end = iterate.layout.end(interval);
+    if (is_now(begin)) jump += iterate.forces.in_interval(static_cast<int>(p), begin);
+    if (is_now(end)) jump -= iterate.forces.in_interval(static_cast<int>(p), end);
   }
   return jump;
 }
@@ -38,8 +38,8 @@ inline PeriodicStiffness contact_stiffness(const ExactSolution& motion) {
     return result;
   }
   const detail::CollocationModel& model = motion.parts->model;
-  for (const ForceInterval& phase : motion.phases)
-    result.intervals.push_back({phase.contact, phase.begin, phase.end});
+  for (const ForceInterval& interval : motion.intervals)
+    result.intervals.push_back({interval.contact, interval.begin, interval.end});
   if (std::ranges::any_of(model.laws, [](const detail::LawSegments& law) { return law.rigid(); })) {
     result.status = StabilityStatus::no_finite_stiffness;
     return result;

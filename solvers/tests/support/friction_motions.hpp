@@ -8,7 +8,7 @@
 
 namespace wavebalance::solvers::testing {
 
-/// A balance of a scene with friction and the motion by phases near it.
+/// A balance of a scene with friction and the motion by collocation near it.
 struct FrictionMotion {
   explicit FrictionMotion(const FrictionScene& which, const CollocationOptions& options = {},
                           int functions = 63, int points = 1024)
@@ -18,14 +18,14 @@ struct FrictionMotion {
     problem.set_frequency(scene.frequency());
     response = forced_response(problem, scene.contact_laws(), {});
     if (response.converged())
-      phases = exact_near_response(problem, scene.contact_laws(), response, dynamics, options, flow_motion);
+      exact = exact_near_response(problem, scene.contact_laws(), response, dynamics, options, flow_motion);
   }
 
   FrictionScene scene;
   CondensedProblem problem;
   ContactDynamics dynamics;
   PeriodicResponse response;
-  ExactNearResponse phases;
+  ExactNearResponse exact;
 };
 
 }  // namespace wavebalance::solvers::testing

@@ -280,7 +280,7 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
            "ones near them for up to 6 contacts or with phases = true; false only counts multipliers at "
            "its points",
            optional, only_with(of_sweeps() && by_balance()));
-  analysis(&Analysis::phases, "phases", "",
+  analysis(&Analysis::exact_near, "phases", "",
            "true computes the exact periodic solution near the response: its contact intervals, its "
            "stability and the errors of the response; in a sweep at every point, instead of only at "
            "the peak and the bifurcation points",

@@ -57,7 +57,7 @@ struct Response {
   double residual =
       0.0;  ///< relative; of the equations, or the difference of the last two periods (time stepping)
   int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
-  int unknowns = 0;    ///< contact displacements in time; of phases the forces at nodes and the instants;
+  int unknowns = 0;    ///< contact displacements in time; with exact = true the forces at nodes and instants;
                        ///< states of the integrator (time stepping)
   int attractor_periods = -1;  ///< solvers::AttractorMotion::attractor_periods; -1 where no attractor was
                                ///< computed
@@ -65,8 +65,8 @@ struct Response {
   int periods = 1;         ///< of the load, over which the motion is written: analysis.subharmonic
   int motion_periods = 1;  ///< of the load, after which it repeats: solvers::motion_periods()
   double change_after_one = std::numeric_limits<double>::quiet_NaN();  ///< solvers::change_after() one period
-  std::string strategy;  ///< solvers::Strategy that found it, or from where phases were found; empty for time
-                         ///< stepping
+  std::string strategy;  ///< solvers::Strategy that found it, or the start of an exact solution; empty for
+                         ///< time stepping
   /// rms difference of the displacements at the quadrature points from ResponseOptions::guess, over the rms
   /// of the guess; NaN without one.
   double start_distance = std::numeric_limits<double>::quiet_NaN();
@@ -76,20 +76,21 @@ struct Response {
   Eigen::MatrixXcd unknown_coefficients;
   Eigen::VectorXd series_flexibility;
   /// The larger condition estimate of the dynamic stiffnesses and of the last Newton matrix; infinite where
-  /// one is singular to working precision, NaN where no such system was solved (time stepping, phases).
+  /// one is singular to working precision, NaN where no such system was solved (time stepping, exact
+  /// solution).
   double condition = std::numeric_limits<double>::quiet_NaN();
   /// solvers::PeriodicResponse::rounding_error; NaN as above. Above largest_rounding_error the response has
   /// not converged, and the status is `inaccurate`.
   double rounding_error = std::numeric_limits<double>::quiet_NaN();
   double wall_seconds = 0.0;             ///< composition, solution and samples
-  double phases_seconds = 0.0;           ///< of the exact motion near a harmonic balance response
+  double exact_seconds = 0.0;            ///< of the exact motion near a harmonic balance response
   std::optional<RigidContact> rigid;     ///< set in scenes with rigid contact
   std::optional<Refinement> refinement;  ///< set in scenes with time.tolerance
   /// Set if converged, with ResponseOptions::stability.
   std::optional<ResponseStability> stability;
-  /// Set if converged, with ResponseOptions::phases of a structure whose modes are known, and in scenes by
-  /// phases where a motion was found, then without errors of a response.
-  std::optional<solvers::ExactNearResponse> phases;
+  /// Set if converged, with ResponseOptions::exact of a structure whose modes are known, and in scenes by
+  /// time.method = "exact" where a motion was found, then without errors of a response.
+  std::optional<solvers::ExactNearResponse> exact;
   std::vector<solvers::Impact> struck;  ///< the impacts of its period, by time
   /// Set in scenes whose contacts all have impacts. Unless one rests no contact exerts a force between them,
   /// so that `contacts` have none.
@@ -103,8 +104,8 @@ struct Response {
   int contact = 0;            ///< the leading one, see leading_contact()
   solvers::Motion structure;  ///< of all degrees of freedom of the reduced structure, without forces;
                               ///< ResponseOptions::structure_points points
-  /// TimeMethod of a forced response: "balance", or "exact" of scenes by phases and of those whose
-  /// time.tolerance phases meet more cheaply; empty for references.
+  /// TimeMethod of a forced response: "balance", or "exact" of scenes by collocation and of those whose
+  /// time.tolerance exact solutions meet more cheaply; empty for references.
   std::string solved_by;
   int start_functions = 0;  ///< functions of the harmonic balance from which an exact solution started; 0
                             ///< without one
@@ -130,7 +131,7 @@ struct ResponseOptions {
   Eigen::VectorXd guess_force{};  ///< its contact force there, N; may be empty
   bool stay_near_guess = false;   ///< solvers::ForcedResponseOptions::stay_near_guess
   bool stability = false;         ///< of weighted_residual_response() and exact_response()
-  bool phases = false;            ///< of weighted_residual_response(): Response::phases
+  bool exact = false;             ///< of weighted_residual_response(): Response::exact
   /// For weighted_residual_response() without time.tolerance: if the functions represent no motion, the
   /// exact motion that time integration converges to is the response. Response::solved_by names it.
   bool exact_instead = false;
@@ -161,7 +162,7 @@ double largest_exact_tolerance(int contacts);
 bool is_exact(const Response& response);
 
 /// time.tolerance, or the default one of exact motions.
-double phases_tolerance(const Scene& scene);
+double exact_tolerance(const Scene& scene);
 
 /// The exact periodic solution, to time.tolerance: of scenes with time.method =
 /// "exact". It starts from a balance with the first of exact_starts Fourier functions near which there is a

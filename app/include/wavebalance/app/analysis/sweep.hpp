@@ -40,7 +40,7 @@ struct ExactAlongSweep {
 
 /// "converged", "converged_beside" if found only a few points along the curve away, another
 /// solvers::ExactStatus, or "not_computed".
-std::string phases_status(const ExactAlongSweep::Point& point);
+std::string exact_status(const ExactAlongSweep::Point& point);
 /// Whether the search found none nearby.
 bool was_not_found(const ExactAlongSweep::Point& point);
 
@@ -54,7 +54,7 @@ struct StabilityAlong {
 };
 
 /// A harmonic balance curve with the counts of the exact motions where these are known; null: without any.
-StabilityAlong stability_along(const solvers::CurveStability& balance, const ExactAlongSweep* phases);
+StabilityAlong stability_along(const solvers::CurveStability& balance, const ExactAlongSweep* exact);
 
 /// The index of the point with the largest displacement, of a curve with points.
 std::size_t peak_of(const solvers::FrequencySweep& curve);
@@ -106,13 +106,13 @@ struct IsolaOrigin {
 /// branches. Load scales of an amplitude sweep are amplitudes.
 struct Sweep {
   solvers::FrequencySweep curve;
-  solvers::CurveStability stability;         ///< set by add_stability(); without points otherwise
-  std::vector<solvers::Branch> branches;     ///< set by add_stability() with analysis.branches
-  std::vector<ExactAlongSweep> phases = {};  ///< set by add_exact(): of the curve, then of each branch
+  solvers::CurveStability stability;        ///< set by add_stability(); without points otherwise
+  std::vector<solvers::Branch> branches;    ///< set by add_stability() with analysis.branches
+  std::vector<ExactAlongSweep> exact = {};  ///< set by add_exact(): of the curve, then of each branch
   /// With impacts: per point of the curve, then of each branch.
   std::vector<std::vector<PointImpacts>> impacts = {};
   /// Whether all contacts are impacts; motions then have no forces and no errors.
-  bool by_impacts() const { return !impacts.empty() && phases.empty(); }
+  bool by_impacts() const { return !impacts.empty() && exact.empty(); }
   /// With friction: per point of the curve, then of each branch.
   std::vector<std::vector<FrictionShares>> friction = {};
   /// The motions of the points of an exact curve, then of each branch.
@@ -121,8 +121,8 @@ struct Sweep {
   std::string start_status = {};         ///< of impacts and exact curves: why there is no first motion
   /// The exact bifurcation points; set by add_exact() with analysis.stability.
   std::optional<solvers::StructurePoints> structure_points = {};
-  bool phases_cancelled = false;  ///< the observer stopped add_exact()
-  int periods = 1;                ///< of the load, over which its motions are solved for
+  bool exact_cancelled = false;  ///< the observer stopped add_exact()
+  int periods = 1;               ///< of the load, over which its motions are solved for
   double start_distance = std::numeric_limits<double>::quiet_NaN();  ///< Response::start_distance
   int motion_periods =
       1;  ///< forcing periods after which the motion of the first point repeats, solvers::motion_periods()
@@ -152,7 +152,7 @@ struct Sweep {
   bool misses_part() const;
   /// The observer stopped the curve, which holds the points so far.
   bool interrupted() const { return curve.status == solvers::SweepStatus::cancelled; }
-  /// The observer stopped it, its stability, a branch, its phases or its motions.
+  /// The observer stopped it, its stability, a branch, its exact solutions or its motions.
   bool stopped() const;
   /// The point of the largest vibration of analysis.peak_of, or of the largest displacement. There must be
   /// one.
@@ -167,7 +167,7 @@ struct Sweep {
     return number == 0 ? stability : branches[number - 1].stability;
   }
   /// Exact solutions (null if not computed) and stability of the curve, 0, or of a branch, from 1.
-  const ExactAlongSweep* phases_of(std::size_t number) const;
+  const ExactAlongSweep* exact_of(std::size_t number) const;
   StabilityAlong stability_of(std::size_t number) const;
 };
 
@@ -211,8 +211,8 @@ void add_exact(const Scene& scene, const StructureModel& model, Sweep& sweep, co
 
 /// Searches for curves that a sweep of the scene with analysis.isolas did not follow, of which `model` is
 /// the structure, its branches of one period among them: solvers::isolated_curves(), with the stability and
-/// phases of each. For an exact curve they are searched for by harmonic balance and then followed exactly.
-/// An observer that stops it leaves the curves so far.
+/// exact solution of each. For an exact curve they are searched for by harmonic balance and then followed
+/// exactly. An observer that stops it leaves the curves so far.
 void add_isolas(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer = {});
 
 /// Sets the stability of a sweep of the scene, of which `model` is the structure, unless analysis.stability
@@ -235,16 +235,16 @@ struct CurveMotion {
   ResponseStability stability;  ///< with analysis.stability; else its status is empty
   /// With analysis.stability or analysis.phases; where it is not empty, the stability belongs to the motion
   /// found, and is not known if none is near.
-  ExactAlongSweep::Point phases;
-  /// Where it is known: the motion of the structure itself near this one, with its phases of contact.
+  ExactAlongSweep::Point exact;
+  /// Where it is known: the motion of the structure itself near this one, with its contact intervals.
   std::optional<solvers::ExactNearResponse> near;
 };
 
 /// The motions of analysis.motion_at: at the point with the largest displacement, at bifurcation and
 /// grazing points in their order along the curve, and at all points with a given frequency or amplitude,
 /// numbered if there are several. Branches are left out. A place that the curve does not pass has none.
-/// `sweep` is one of the scene with motion_at. A response, its phases and its stability for each. If the
-/// observer stops, the remaining ones are named in sweep.motions_left_out.
+/// `sweep` is one of the scene with motion_at. A response, its exact solution and its stability for each. If
+/// the observer stops, the remaining ones are named in sweep.motions_left_out.
 std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel& model, Sweep& sweep,
                                        const Observer& observer = {});
 

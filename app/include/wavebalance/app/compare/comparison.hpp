@@ -47,7 +47,7 @@ struct Recommendation {
   /// Fourier:Fourier with at most twice the time and 1.5 times the error of the choice.
   std::optional<SolvePoint> fourier_near_miss;
   /// The fastest exact solution, if it is faster than the choice, or no pair reaches the error.
-  std::optional<SolvePoint> phases;
+  std::optional<SolvePoint> exact;
   BasisMatters matters = BasisMatters::no_choice;
   std::string sentences;   ///< two, and one on the exact solution where it is faster
   std::string time_table;  ///< "[time]\ntrial = ...": to be pasted into a scene; empty without a choice
@@ -106,8 +106,8 @@ struct Comparison {
   std::string
       without_force;  ///< why the force is left out, a phrase; empty if it decides or was not requested
   bool force_asked = false;        ///< by ComparisonOptions::measure, and not by default
-  std::vector<SolvePoint> points;  ///< those solved, with on_front, phases first
-  std::vector<PairResult> pairs;   ///< phases after the admissible ones, the inadmissible ones last
+  std::vector<SolvePoint> points;  ///< those solved, with on_front, exact solutions first
+  std::vector<PairResult> pairs;   ///< exact solutions after the admissible ones, the inadmissible ones last
   std::vector<Recommendation> recommendations;
   double wall_seconds = 0.0;
 
@@ -187,9 +187,9 @@ struct SweepComparison {
 
 /// Follows the curve of the scene's sweep in each pair with 8, 16, ... functions, a pair of Fourier functions
 /// with one less, and the points per function of the scene, to largest_functions or 16384 or until the budget
-/// is used. Before them, for a fifth of the budget at most, the curve of the structure itself, where phases
-/// of contact follow it from one end to the other. Pairs are followed together, one in each thread; a
-/// curve and its digits do not depend on the others. The observer is called by one thread at a time. Throws
+/// is used. Before them, for a fifth of the budget at most, the curve of the structure itself, where exact
+/// solutions of contact follow it from one end to the other. Pairs are followed together, one in each thread;
+/// a curve and its digits do not depend on the others. The observer is called by one thread at a time. Throws
 /// as check_comparison().
 SweepComparison compare_sweeps(const Scene& scene, const ComparisonOptions& options,
                                const solvers::Observer& observer = {});
@@ -246,8 +246,8 @@ Table points_table(const Comparison& comparison);
 Table pairs_table(const Comparison& comparison);
 /// error, error_of, trial, weight, functions, quadrature_points, seconds, displacement_error, force_error,
 /// fourier_functions, fourier_seconds, fourier_time_ratio, basis_matters, phases_functions, phases_points,
-/// phases_seconds, phases_error, stability, sentences, time_table. Entries of phases exist if the exact
-/// solution is faster than the choice.
+/// phases_seconds, phases_error, stability, sentences, time_table. Entries of exact solutions exist if the
+/// exact solution is faster than the choice.
 Table recommendations_table(const std::vector<Recommendation>& recommendations);
 /// trial, weight, functions, points, seconds, curve_points, max_displacement_m,
 /// comparison.peak_column, turning_points, distance_from_finest, distance_from_exact, status.

@@ -18,13 +18,13 @@
 
 namespace wavebalance::app {
 
-/// Trial and weighting functions, by the names of Time::trial and Time::weight, or phases().
+/// Trial and weighting functions, by the names of Time::trial and Time::weight, or exact().
 struct BasisPair {
   std::string trial, weight;
 
   /// The exact solution among the pairs of bases: it has no weighting functions.
-  static BasisPair phases() { return {"phases", ""}; }
-  bool is_phases() const { return *this == phases(); }
+  static BasisPair exact() { return {"phases", ""}; }
+  bool is_exact() const { return *this == exact(); }
   bool is_fourier() const { return trial == "fourier" && weight == "fourier"; }
   bool operator==(const BasisPair&) const = default;
 };
@@ -91,7 +91,7 @@ struct Reference {
   ResponseStability stability;
   /// Why the exact solution is not the reference, a phrase; empty where it is, and where contact never
   /// closes.
-  std::string without_phases;
+  std::string without_exact;
   /// Whether Newton's method from the response without contact finds a balance with few functions. If not,
   /// the time of a solve from there does not depend on its size only.
   bool reached_directly = true;
@@ -128,10 +128,10 @@ Reference find_reference(const Scene& scene, const StructureModel& model, int po
 struct SolvePoint {
   std::string method = "weighted_residual";  ///< or "phases", or a baseline of bench
   BasisPair pair = {};
-  std::string inner_products = {};      ///< "exact" or "quadrature"
-  int functions = 0;                    ///< M, of the balance that phases start from; 0 where there is none
-  int points = 0;                       ///< N
-  double tolerance = solvers::missing;  ///< of phases and time stepping
+  std::string inner_products = {};  ///< "exact" or "quadrature"
+  int functions = 0;  ///< M, of the balance that exact solutions start from; 0 where there is none
+  int points = 0;     ///< N
+  double tolerance = solvers::missing;  ///< of exact solutions and time stepping
   double construction_seconds = solvers::missing;
   double seconds = solvers::missing;  ///< least of several solves from the linear response, plans made before
   double error = solvers::missing;    ///< that which decides: one of the following or, of both, the larger
@@ -264,11 +264,11 @@ struct ExactStudyOptions {
 };
 
 /// The exact periodic solution of the scene, from nothing: a balance with M Fourier functions
-/// and 4 (M + 1) points from the linear response, the poles of the structure, and the phases near the
-/// balance. The balance is the one from which phases to a tolerance of 1e-6 are found soonest, of 31, 63, ...
-/// functions until the time rises; those from which the phases are not found are among the rows. Then come
-/// the other tolerances. Errors are those against the reference, which has more nodes, and no smaller than
-/// its own.
+/// and 4 (M + 1) points from the linear response, the poles of the structure, and the exact solutions near
+/// the balance. The balance is the one from which exact solutions to a tolerance of 1e-6 are found soonest,
+/// of 31, 63, ... functions until the time rises; those from which the exact solutions are not found are
+/// among the rows. Then come the other tolerances. Errors are those against the reference, which has more
+/// nodes, and no smaller than its own.
 std::vector<SolvePoint> phase_study(const MeasuredScene& measured, const Reference& reference,
                                     const ExactStudyOptions& options);
 

@@ -22,7 +22,7 @@ enum class AnalysisType {
 
 /// Method of an analysis: equations of functions or modes, time integration, event-driven collocation, or
 /// integration from event to event.
-enum class MotionsBy { equations, time, phases, events };
+enum class MotionsBy { equations, time, collocation, events };
 
 /// The words and flags in which analyses differ.
 struct AnalysisKind {
@@ -35,7 +35,7 @@ struct AnalysisKind {
   bool keeps_part;        ///< an interruption leaves what was found so far
   bool any_matrices;      ///< damping and stiffness need no symmetry
 
-  bool is_exact() const { return motions_by == MotionsBy::phases || motions_by == MotionsBy::events; }
+  bool is_exact() const { return motions_by == MotionsBy::collocation || motions_by == MotionsBy::events; }
 };
 inline constexpr std::array<AnalysisKind, 9> analysis_kinds{{
     {AnalysisType::forced_response, "forced_response", "Forced response", MotionsBy::equations, true, true,
@@ -46,9 +46,9 @@ inline constexpr std::array<AnalysisKind, 9> analysis_kinds{{
      MotionsBy::equations, true, true, true, true},
     {AnalysisType::time_stepping, "time_stepping", "Response by time stepping", MotionsBy::time, true, true,
      false, true},
-    {AnalysisType::shooting, "shooting", "Exact periodic solution", MotionsBy::phases, true, true, false,
+    {AnalysisType::shooting, "shooting", "Exact periodic solution", MotionsBy::collocation, true, true, false,
      true},
-    {AnalysisType::motions, "motions", "Coexisting motions", MotionsBy::phases, true, true, true, true},
+    {AnalysisType::motions, "motions", "Coexisting motions", MotionsBy::collocation, true, true, true, true},
     {AnalysisType::nonlinear_mode, "nonlinear_mode", "Nonlinear mode", MotionsBy::equations, false, false,
      false, false},
     {AnalysisType::limit_cycle, "limit_cycle", "Limit cycle", MotionsBy::events, false, false, false, true},
@@ -85,7 +85,7 @@ struct Analysis {
   int motion_points = -1;  ///< instants of the period at which the whole structure's motion is written
   /// forced_response, sweeps: whether the motion of the structure near the response, or near every point of
   /// the curve, has an exact periodic solution
-  bool phases = false;
+  bool exact_near = false;
   /// sweeps: whether the curve consists of exact periodic solutions
   bool exact = false;
   bool stability = true;  ///< forced_response, frequency_sweep: whether Floquet multipliers are counted

@@ -44,8 +44,8 @@ struct PeriodStart {
 enum class ExactStatus {
   converged,
   not_found,  ///< the search ended without a motion near the start, which is no proof that there is none
-  tolerance_missed,  ///< the error is estimated above the tolerance at the largest number of unknowns
-  too_many_phases,   ///< the first steps of Newton's method would need more than max_operations
+  tolerance_missed,    ///< the error is estimated above the tolerance at the largest number of unknowns
+  too_many_intervals,  ///< the first steps of Newton's method would need more than max_operations
   /// a law has no finite stiffness at a contact with mass, or at a structure that is free to move
   rigid_contact,
   velocity_and_no_mass,  ///< a force of the velocity at a contact without mass
@@ -86,11 +86,11 @@ struct CollocationOptions {
   int nodes = 12;  ///< of a panel, at first
   int max_nodes = 32;
   int max_panels = 400;
-  /// Up to so many panels, phases are cut where other contacts change theirs, since their forces have kinks
-  /// in high derivatives there. With many active contacts these cuts cause most of the unknowns.
+  /// Up to so many panels, intervals are cut where other contacts change theirs, since their forces have
+  /// kinks in high derivatives there. With many active contacts these cuts cause most of the unknowns.
   int max_cut_panels = 100;
   int max_iterations = 20;  ///< of Newton's method, each time
-  int max_changes = 12;     ///< of the phases
+  int max_changes = 12;     ///< of the intervals
   /// Floating-point operations of all Newton steps. N unknowns need about 2/3 N^3 in one step and 64 N^2
   /// bytes of memory. Nothing is computed if the first three steps would need more.
   double max_operations = 5e11;
@@ -101,13 +101,13 @@ struct CollocationOptions {
 };
 
 /// A periodic motion of a structure with contact, to rounding: contact forces that are polynomials on panels
-/// of the phases of contact, whose ends are unknowns.
+/// of the contact intervals, whose ends are unknowns.
 ///
 /// Immutable; copies share it.
 class ExactSolution {
  public:
   ExactStatus status = ExactStatus::not_found;
-  std::vector<ForceInterval> phases;  ///< by contact, then by begin
+  std::vector<ForceInterval> intervals;  ///< by contact, then by begin
   /// Contacts with friction by the parts of the period in which they are open, stick and slip.
   std::vector<FrictionAlong> friction;
   std::vector<FrictionCycle> cycles;  ///< of these
@@ -155,16 +155,16 @@ class ExactSolution {
 /// The motion near a start: displacements of the contacts, C x N, m, at the times l / N, of a balance or of
 /// an integration, and with rigid laws the forces of the contacts, C x N, N. Solves
 ///
-///   u(t) = u_0(t) - integral of G(t - s) f(s) ds - R_0 f(t),   f(t) = f_c(u(t), v(t)) within phases, 0
+///   u(t) = u_0(t) - integral of G(t - s) f(s) ds - R_0 f(t),   f(t) = f_c(u(t), v(t)) within intervals, 0
 ///   elsewhere,
 ///
 /// G the periodic Green function of the contacts, by collocation of f at Gauss nodes of the panels and u =
-/// kink at the ends of the phases, whose instants are unknowns. In rigid contact u = gap replaces the law;
+/// kink at the ends of the intervals, whose instants are unknowns. In rigid contact u = gap replaces the law;
 /// with R_0 > 0 of a massless contact it is an equation for f. Panels are cut where another contact changes
 /// its state, and divided where their error is above the tolerance. Contact intervals are removed or
 /// inserted until they agree with the motion.
 ///
-/// Throws std::invalid_argument for sizes that do not fit and for laws over a period, whose phases
+/// Throws std::invalid_argument for sizes that do not fit and for laws over a period, whose intervals
 /// flow_motion() seeks. A Newton step costs O(n^3 + n^2 poles) for n unknowns.
 ExactSolution collocation_motion(const ExactProblem& problem, const Eigen::MatrixXd& start,
                                  const CollocationOptions& options = {},

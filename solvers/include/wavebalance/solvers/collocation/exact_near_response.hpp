@@ -33,7 +33,7 @@ ExactNearResponse exact_near_response(const CondensedProblem& problem, const Con
 
 /// The same for what exact_problem() gives at the frequency and load of the problem.
 ExactNearResponse exact_near_response(const CondensedProblem& problem, const PeriodicResponse& response,
-                                      const ExactProblem& phases, const CollocationOptions& options = {},
+                                      const ExactProblem& exact, const CollocationOptions& options = {},
                                       IntervalFinder find = collocation_motion);
 
 }  // namespace wavebalance::solvers

@@ -24,9 +24,9 @@ struct ExactCurveOptions {
   /// exact_point_operations() of all points together, after which the curve has the status `point_limit`,
   /// too.
   double max_operations = std::numeric_limits<double>::infinity();
-  bool stability = true;           ///< multipliers at each point, and the points where they pass the circle
-  CollocationOptions phases = {};  ///< tolerance, nodes and panels of each motion
-  Observer observer = {};          ///< called with the last point in each step of Newton's method
+  bool stability = true;          ///< multipliers at each point, and the points where they pass the circle
+  CollocationOptions exact = {};  ///< tolerance, nodes and panels of each motion
+  Observer observer = {};         ///< called with the last point in each step of Newton's method
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -66,20 +66,20 @@ struct ExactCurve {
 /// Estimated floating-point operations for a point of a curve like this motion, with its multipliers.
 double exact_point_operations(const ExactSolution& motion, const ContactDynamics& dynamics);
 
-/// The curve of motions of the structure over the parameter of `family`, by phases of contact, from a motion
+/// The curve of motions of the structure over the parameter of `family`, by contact intervals, from a motion
 /// that has converged at options.from until it leaves the interval, of which options.behind may be the end on
 /// the side of its start, or comes back to its first point (`closed`): predicted by polynomials in the arc
 /// length, corrected by Newton's method with the unknown that changes fastest held, so that folds are points
 /// as any other. Where a phase appears or vanishes the grazing motion is solved for, and the curve goes on
-/// with the other phases.
+/// with the other intervals.
 ///
 /// Bifurcation and grazing points are zeros along the curve: of the parameter's slope (fold), of a
 /// multiplier's modulus less 1 (period doubling, Neimark-Sacker, branch), of the distance from a breakpoint
 /// (grazing).
 ///
-/// With friction, of a first motion by the flow, and of laws of the velocity where the curve by phases is
-/// lost, the curve is followed by the map of a period of the flow from event to event instead, with the same
-/// results. A slider that sticks all the time is then in the middle of the positions in which it does.
+/// With friction, of a first motion by the flow, and of laws of the velocity where the curve by collocation
+/// is lost, the curve is followed by the map of a period of the flow from event to event instead, with the
+/// same results. A slider that sticks all the time is then in the middle of the positions in which it does.
 ///
 /// From a motion of impact_motion() the curve is followed by its equations, also over several periods of the
 /// load; where impacts vanish or appear the grazing motion is solved for.

@@ -14,7 +14,7 @@ namespace wavebalance::solvers {
 /// tolerance of the flow is refined until two solutions differ by less than a third of the tolerance of the
 /// options, whose max_iterations and observer also apply.
 ///
-/// The result has `friction` where a contact has it. Its phases are those in which a row has a force: of a
+/// The result has `friction` where a contact has it. Its intervals are those in which a row has a force: of a
 /// normal direction with friction with piece 1, of a tangent with piece 1 in stick, 2 and 3 in slip with a
 /// positive and a negative force, of two tangents 2 in slip. `unknowns` are the states; `estimated_error` is
 /// the distance of the last two solutions, and at least what their panels leave out and rounding.
@@ -36,7 +36,7 @@ ExactSolution autonomous_motion_from(const ExactProblem& problem, const PeriodSt
                                      const CollocationOptions& options = {});
 
 /// collocation_motion(), which is faster, if all laws are laws of one instant, and flow_motion() with
-/// friction, and where that finds no motion or has too many phases.
+/// friction, and where that finds no motion or has too many intervals.
 ExactSolution exact_motion(const ExactProblem& problem, const Eigen::MatrixXd& start,
                            const CollocationOptions& options = {}, const Eigen::MatrixXd& start_force = {});
 

@@ -23,7 +23,7 @@ struct ImpactResponseOptions {
 
 /// A forced response with impacts.
 struct ImpactResponse {
-  /// Over load_periods periods of the load; where a contact rests with phases, too. Without a motion its
+  /// Over load_periods periods of the load; where a contact rests with intervals, too. Without a motion its
   /// status describes the structure: `chattering`, `lasting_contact`, `grazing`, `not_settled`,
   /// `too_many_impacts` or `cancelled`.
   ExactSolution motion;
@@ -38,7 +38,7 @@ struct ImpactResponse {
   int chattering_contact = -1;
 
   bool moves() const { return motion.parts != nullptr; }
-  bool lasts() const { return !motion.phases.empty(); }
+  bool lasts() const { return !motion.intervals.empty(); }
 };
 
 /// The motion with impacts that a structure converges to under its load, of which `problem` has one period:

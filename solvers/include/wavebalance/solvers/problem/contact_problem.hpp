@@ -78,23 +78,23 @@ class ContactProblem {
   /// contact_motion() and structure_motion() of a response.
   Motion motion(const PeriodicResponse& response, int points);
   Motion structure_motion(const PeriodicResponse& response, int points);
-  /// The phases of contact near a response; nothing where the structure has no modes to compute.
-  std::optional<ExactNearResponse> phases(const PeriodicResponse& response,
-                                          const CollocationOptions& options = {});
+  /// The contact intervals near a response; nothing where the structure has no modes to compute.
+  std::optional<ExactNearResponse> exact_near(const PeriodicResponse& response,
+                                              const CollocationOptions& options = {});
   /// The exact solution near the motion that settle() found at a frequency; nothing if there is none, or no
   /// modes.
-  std::optional<ExactSolution> phases(double frequency, const AttractorMotion& settled,
-                                      const CollocationOptions& options = {});
+  std::optional<ExactSolution> exact_near(double frequency, const AttractorMotion& settled,
+                                          const CollocationOptions& options = {});
   /// Whether its motions are solved for from event to event, because balance does not support them: impacts
   /// in addition to other laws, friction of a free structure, rigid friction at a contact with mass.
   bool moves_by_events() const;
   /// attractor_motion() at a frequency. Throws std::invalid_argument without modes.
   ExactAttractor exact_attractor(double frequency, const TimeSteppingOptions& stepping,
                                  const CollocationOptions& options = {});
-  /// The phases of contact near displacements of the contacts, and with rigid laws forces, uniform over the
+  /// The contact intervals near displacements of the contacts, and with rigid laws forces, uniform over the
   /// period; nothing without modes.
-  std::optional<ExactSolution> phases(double frequency, const Motion& start,
-                                      const CollocationOptions& options = {});
+  std::optional<ExactSolution> exact_near(double frequency, const Motion& start,
+                                          const CollocationOptions& options = {});
   /// exact_structure_motion() of a motion at a frequency, and its stability where it has converged.
   ExactStructureMotion structure_motion(double frequency, const ExactSolution& motion, int points,
                                         const ExactStructureOptions& options = {});

@@ -27,7 +27,7 @@ struct ExactAtPoint {
 
 /// Results along a curve, and number of threads.
 struct ExactAlongOptions {
-  CollocationOptions phases{};
+  CollocationOptions exact{};
   /// Largest ExactNearResponse::displacement_error. A motion farther away is another one, and none is near.
   double max_distance = 0.1;
   bool stability = true;              ///< of the motions found
@@ -39,7 +39,7 @@ struct ExactAlongOptions {
   void validate() const;
 };
 
-/// ContactProblem::phases() of a response, with the status not_found where the motion found is farther
+/// ContactProblem::exact_near() of a response, with the status not_found where the motion found is farther
 /// away than options.max_distance.
 std::optional<ExactNearResponse> exact_near(ContactProblem& problem, const PeriodicResponse& response,
                                             const ExactAlongOptions& options = {});

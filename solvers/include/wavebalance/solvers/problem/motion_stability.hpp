@@ -21,7 +21,7 @@ struct MotionStability {
   /// it is not known or below 1e-2.
   std::complex<double> leading{missing, missing};
   /// Whether it belongs to the exact motion or to the balance.
-  bool by_phases = false;
+  bool is_exact = false;
   double wall_seconds = 0.0;
 };
 
@@ -34,7 +34,7 @@ StabilityOptions stability_options(const CondensedProblem& problem);
 /// The verdict on a motion of which all multipliers are known, the largest first.
 MotionStability stability_of_multipliers(const Eigen::VectorXcd& multipliers);
 
-/// The stability of a response, at whose frequency and load the problem is. By the phases of contact of
+/// The stability of a response, at whose frequency and load the problem is. By the contact intervals of
 /// `motion` where these are known: all multipliers at once, ExactSolution::multipliers(), which have no
 /// harmonics to truncate. Where none was found near the response there is no verdict. `motion` may be
 /// null.

@@ -35,7 +35,7 @@ struct StructurePointsOptions {
   double max_operations = 5e11;   ///< floating-point operations of all curves together
   double max_distance = 0.1;      ///< as of ExactAlongOptions
   double first_step = 0.02, largest_step = 0.2;  ///< as of ExactCurveOptions
-  CollocationOptions phases{};
+  CollocationOptions exact{};
   int threads = 1;      ///< that process the segments one by one; 0: one per core
   Observer observer{};  ///< called only by the caller's thread
 

@@ -21,7 +21,7 @@ struct ForcedResponseOptions {
   double max_fallback_operations = 1e10;  ///< of each further Newton run; 20 iterations at least
   AttractorOptions settling;              ///< its observer is not used
   ResidualHomotopyOptions continuation;   ///< in the gaps and of residuals; its observer is not used
-  Observer observer;                      ///< called in all phases; NewtonOptions::observer is not used here
+  Observer observer;                      ///< called in all steps; NewtonOptions::observer is not used here
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;

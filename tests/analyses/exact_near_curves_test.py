@@ -66,25 +66,25 @@ def test_errors_at_special_points_are_smaller_with_more_functions():
     assert worst[0] > 0.0 and 0.0 < worst[1] < 0.3 * worst[0]
 
 
-def test_phases_correct_the_counts_of_the_balance():
+def test_exact_solutions_correct_the_counts_of_the_balance():
     """At the first point all multipliers of the structure lie inside the circle."""
-    balance, phases = (solved(TWO_MASSES, between(14.77656632196452, 14.7768, type="frequency_sweep", phases=one)).sweep
+    balance, exact = (solved(TWO_MASSES, between(14.77656632196452, 14.7768, type="frequency_sweep", phases=one)).sweep
                        for one in (False, True))
-    assert rows_of(phases) == rows_of(balance) > 0
-    assert balance["unstable"][0] == 1.0 and phases["unstable"][0] == 0.0
-    assert phases["stability_by"][0] == "phases" and phases["phases_status"][0] == "converged"
-    none = np.array(phases["phases_status"]) == "not_found"
-    np.testing.assert_array_equal(np.isnan(phases["unstable"]), none)
-    np.testing.assert_array_equal(phases["stability_by"], np.where(none, "none", "phases"))
+    assert rows_of(exact) == rows_of(balance) > 0
+    assert balance["unstable"][0] == 1.0 and exact["unstable"][0] == 0.0
+    assert exact["stability_by"][0] == "phases" and exact["phases_status"][0] == "converged"
+    none = np.array(exact["phases_status"]) == "not_found"
+    np.testing.assert_array_equal(np.isnan(exact["unstable"]), none)
+    np.testing.assert_array_equal(exact["stability_by"], np.where(none, "none", "phases"))
 
 
 @pytest.mark.parametrize("begin, end, count", [(2.124, 2.1241, 0.0), (2.29704, 2.29714, 1.0)])
-def test_phases_correct_the_counts_of_short_contacts(begin, end, count):
+def test_exact_solutions_correct_the_counts_of_short_contacts(begin, end, count):
     """Newton's method on the map of the period and variational equations give these counts, the balance one more."""
-    balance, phases = (solved(THREE_MASSES, between(begin, end, **more)) for more in ({}, {"phases": True}))
-    assert balance.converged and phases.converged
+    balance, exact = (solved(THREE_MASSES, between(begin, end, **more)) for more in ({}, {"phases": True}))
+    assert balance.converged and exact.converged
     assert balance.sweep["unstable"][0] == count + 1.0
-    assert phases.sweep["unstable"][0] == count and phases.sweep["stability_by"][0] == "phases"
+    assert exact.sweep["unstable"][0] == count and exact.sweep["stability_by"][0] == "phases"
 
 
 def test_a_curve_sums_up_the_errors_of_all_points():
@@ -95,7 +95,7 @@ def test_a_curve_sums_up_the_errors_of_all_points():
     assert record.summary["points_not_found"] == 0 and record.summary["points_phases_not_known"] == 0
 
 
-def test_phases_of_a_curve_need_no_stability():
+def test_exact_solutions_of_a_curve_need_no_stability():
     without = {**LOW, "analysis.stability": False}
     record = solved(STOP, {**without, **PHASES})
     assert record.converged and "stability_by" not in record.sweep
@@ -103,7 +103,7 @@ def test_phases_of_a_curve_need_no_stability():
     assert "phases_status" not in solved(STOP, without).summary
 
 
-def test_phases_are_those_of_a_curve_over_the_amplitude_too():
+def test_exact_solutions_are_those_of_a_curve_over_the_amplitude_too():
     record = solved(STOP_AMPLITUDE, {**PHASES, "time.functions": 31})
     assert record.converged and record.summary["phases_status"] in WITH_ERRORS
     errors, highest = record.sweep["error_of_displacement"], record.sweep["max_displacement_m"]
@@ -111,7 +111,7 @@ def test_phases_are_those_of_a_curve_over_the_amplitude_too():
     assert known.any() and (errors < np.where(highest < 1.0, 1e-9, 0.01))[known].all()
 
 
-def test_phases_are_those_of_branches_too():
+def test_exact_solutions_are_those_of_branches_too():
     """A branch of two periods has its own functions and points."""
     record = solved(SCENES / "cases_of_others" / "oscillator_with_stop.toml", PHASES)
     assert "branches" in record.summary
@@ -122,7 +122,7 @@ def test_phases_are_those_of_branches_too():
     assert record.summary["points_phases_converged"] > int(0.9 * rows_of(record.sweep))
 
 
-def test_a_curve_names_why_phases_are_not_known():
+def test_a_curve_names_why_exact_solutions_are_not_known():
     record = solved(JONES / "case2_sweep.toml", {**PHASES, **LOSS_FACTOR, **between(1225, 1235)})
     assert record.summary["phases_status"] == "structural_damping"
     assert np.isnan(record.summary["error_of_displacement"])
@@ -131,7 +131,7 @@ def test_a_curve_names_why_phases_are_not_known():
     assert set(record.sweep["stability_by"]) == {"balance"}
 
 
-def test_phases_are_known_against_a_rigid_obstacle_at_a_tip_without_mass():
+def test_exact_solutions_are_known_against_a_rigid_obstacle_at_a_tip_without_mass():
     record = solved(JONES / "case2_sweep_rigid.toml", {**PHASES, **between(1225, 1235)})
     assert record.summary["phases_status"] == "converged" and record.summary["error_of_displacement"] < 1e-2
     converged = np.array(record.sweep["phases_status"]) == "converged"
