@@ -293,6 +293,12 @@ def test_a_response_that_does_not_exist_is_the_aperiodic_motion_with_its_statist
     assert "more analysis.recorded_periods" in record.errors
 
 
+def test_a_response_that_does_not_exist_is_recorded_as_long_as_some_seconds_allow(run, matrix):
+    record = run(tube(matrix, recorded=100_000))
+    assert record.summary["status"] == "aperiodic" and 64 < record.summary["recorded_periods"] < 10_000
+    assert any('analysis.type = "time_stepping" records all' in warning for warning in record.summary["warnings"])
+
+
 def test_a_response_without_a_record_ends_as_before(run, matrix):
     found = run(tube(matrix, recorded=0)).summary
     assert found["status"] != "aperiodic" and "statistics" not in found

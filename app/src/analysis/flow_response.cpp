@@ -38,6 +38,7 @@ Response flow_response(const Scene& scene, const StructureModel& model, const Re
   stepping_options.output_points = scene.analysis.output_points;
   stepping_options.period_tolerance = scene.analysis.tolerance;
   stepping_options.max_periods = scene.analysis.max_periods;
+  stepping_options.max_operations = options.max_operations;
   stepping_options.observer = options.observer;
   FlowMotion found = solvers::integrate_by_events(problem, dynamics, make_laws(scene), stepping_options);
   const solvers::TimeSteppingResult& stepping = found.stepping;

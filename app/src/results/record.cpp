@@ -1,5 +1,8 @@
 #include "wavebalance/app/results/record.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "files/number_text.hpp"
 #include "results/analyses.hpp"
 #include "results/record_parts.hpp"
@@ -70,12 +73,40 @@ bool found_no_period(const Response& response) {
           response.status == to_string(solvers::ExactStatus::not_settled));
 }
 
-/// The motion in time instead of a response that was not found, if it is aperiodic.
+/// Periods that can be recorded after `found` within so many operations.
+int affordable_periods(const Response& found, double max_operations) {
+  const double left = max_operations / found.flow->operations - 1.0;
+  return int(std::min(left * found.iterations, double(std::numeric_limits<int>::max())));
+}
+
+Record record_in_time(Scene scene, const StructureModel& model, const AnalysisOptions& how,
+                      double max_operations) {
+  ResponseOptions options = response_options(scene, how.observer);
+  options.max_operations = max_operations;
+  Response response = flow_response(scene, model, options);
+  const int affordable = response.moves ? affordable_periods(response, max_operations) : 0;
+  scene.analysis.recorded_periods = std::min(scene.analysis.recorded_periods, affordable);
+  std::optional<RecordedMotion> recorded;
+  if (affordable >= least_recorded_periods)
+    recorded = recorded_motion(scene, model, response, options.observer);
+  response.recorded = recorded.has_value();
+  // The motion of the structure requires periodic forces; the statistics have the outputs.
+  if (recorded) response.structure = {};
+  Record record = response_record(scene, model, response);
+  if (recorded) append_recorded(record, *recorded, scene, response.contact);
+  if (recorded && affordable == scene.analysis.recorded_periods)
+    warn(record, "The record was ended after " + std::to_string(affordable) +
+                     " periods, which take some seconds. analysis.type = \"time_stepping\" records all.");
+  return record;
+}
+
+/// The motion in time instead of a response that was not found, if it is aperiodic and some seconds suffice.
 std::optional<Record> aperiodic_record(const Scene& scene, const StructureModel& model,
                                        const AnalysisOptions& how) {
+  constexpr double most_operations = 5e10;
   const auto in_time = changed_scene(scene, statistics_in_time());
   if (!in_time || scene.analysis.recorded_periods == 0) return std::nullopt;
-  Record record = stepping_record(*in_time, model, how);
+  Record record = record_in_time(*in_time, model, how, most_operations);
   if (record.status != quantities::aperiodic) return std::nullopt;
   for (Entry& entry : record.summary)
     if (entry.name == quantities::analysis.name) entry.value = name_of(scene.analysis.type);
@@ -102,15 +133,7 @@ std::string stepping_plan(const Scene& scene) {
 }
 
 Record stepping_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
-  const ResponseOptions options = response_options(scene, how.observer);
-  Response response = flow_response(scene, model, options);
-  const auto recorded = recorded_motion(scene, model, response, options.observer);
-  response.recorded = recorded.has_value();
-  // The motion of the structure requires periodic forces; the statistics have the outputs.
-  if (recorded) response.structure = {};
-  Record record = response_record(scene, model, response);
-  if (recorded) append_recorded(record, *recorded, scene, response.contact);
-  return record;
+  return record_in_time(scene, model, how, std::numeric_limits<double>::infinity());
 }
 
 const AnalysisPart& part_of(AnalysisType type) {

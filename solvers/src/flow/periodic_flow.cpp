@@ -31,7 +31,13 @@ FlowStatus sampled_period(ContactFlow& flow, Motion& motion, PeriodStart& begin,
   result.events = flow.events();
   result.impacts = detail::impacts_of(flow, 0.0);
   result.cycles = flow.cycles();
+  result.operations += detail::period_operations(flow, int(motion.displacement.rows()));
   return status;
+}
+
+bool affords(const FlowMotion& motion, const TimeSteppingOptions& options) {
+  const double each = motion.operations / motion.stepping.periods;
+  return each * options.max_periods <= options.max_operations;
 }
 
 // Periods one after the other until the motion repeats.
@@ -66,6 +72,7 @@ TimeSteppingStatus run(ContactFlow& flow, const ExactProblem& problem, const Tim
       return repeats == 1 ? TimeSteppingStatus::converged : TimeSteppingStatus::subharmonic;
     }
     if (!wanted) return TimeSteppingStatus::cancelled;
+    if (!affords(result, options)) return TimeSteppingStatus::iteration_limit;
   }
   if (past.change() <= flow_errors) return TimeSteppingStatus::tolerance_missed;
   if (stepping.periods > 2 * options.longest) stepping.attractor_periods = 0;

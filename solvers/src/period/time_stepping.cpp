@@ -21,6 +21,7 @@ void TimeSteppingOptions::validate() const {
   detail::require_at_least(who, "output_points", output_points, 2);
   detail::require_positive(who, "period_tolerance", period_tolerance);
   detail::require_at_least(who, "max_periods", max_periods, 1);
+  if (!(max_operations > 0.0)) detail::reject(who, "max_operations", max_operations, "positive");
   detail::require_at_least(who, "longest", longest, 1);
 }
 

@@ -36,6 +36,15 @@ TEST(PeriodicFlow, TellsItsObserverOfEveryPeriodAndMayBeCancelled) {
   EXPECT_EQ(std::vector<double>(differences.begin() + 1, differences.end()), result.period_error);
 }
 
+TEST(PeriodicFlow, EndsWhereItsPeriodsWouldTakeMoreOperationsThanAllowed) {
+  TimeSteppingOptions options;
+  options.max_operations = 1.0;
+  const TimeSteppingResult result = integrated(testing::jl14_case_2.law, options);
+  EXPECT_EQ(result.status, TimeSteppingStatus::iteration_limit);
+  EXPECT_EQ(result.periods, 1);
+  EXPECT_EQ(result.attractor_periods, -1);
+}
+
 TEST(PeriodicFlow, AStructureAtRestWithoutLoadStaysThere) {
   const TimeSteppingResult result = integrated(testing::jl14_case_2.law, {}, 0.0);
   EXPECT_EQ(result.status, TimeSteppingStatus::converged);

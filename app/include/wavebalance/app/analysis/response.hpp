@@ -135,6 +135,8 @@ struct ResponseOptions {
   /// For weighted_residual_response() without time.tolerance: if the functions represent no motion, the
   /// exact motion that time integration converges to is the response. Response::solved_by names it.
   bool exact_instead = false;
+  double max_operations =
+      std::numeric_limits<double>::infinity();  ///< of time stepping, its periods and record
   Observer observer{};
 };
 

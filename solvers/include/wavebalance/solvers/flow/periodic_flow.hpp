@@ -21,8 +21,9 @@ struct FlowMotion {
   std::vector<FrictionCycle> cycles;             ///< of the machines in the last period
   std::vector<int> states;                       ///< of the machines at the end
   Eigen::VectorXd state;                         ///< ContactFlow::state() there
-  PeriodStart nearest;  ///< of all periods the beginning of the one that came back nearest
-  int rests = 0;        ///< impacts of the last period without rebound, FlowOptions::rest_velocity
+  PeriodStart nearest;      ///< of all periods the beginning of the one that came back nearest
+  double operations = 0.0;  ///< estimated, of all periods integrated
+  int rests = 0;            ///< impacts of the last period without rebound, FlowOptions::rest_velocity
   /// Relative distance of the state from that one period later, after Newton's method on the map of the
   /// period; missing where that was not tried or found no motion.
   double closed = missing;

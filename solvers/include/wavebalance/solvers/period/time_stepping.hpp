@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace wavebalance::solvers {
 enum class TimeSteppingStatus {
   converged,         ///< two successive periods agree
   subharmonic,       ///< the motion repeats after several periods, TimeSteppingResult::attractor_periods
-  iteration_limit,   ///< max_periods was reached
+  iteration_limit,   ///< max_periods was reached, or would need more than max_operations
   tolerance_missed,  ///< max_periods was reached, and the last two periods differ by the errors of panels
   step_failure,      ///< the integrator found no step that meets its tolerance
   grows,             ///< displacements leave every bound
@@ -25,6 +26,8 @@ struct TimeSteppingOptions {
   int output_points = 1024;        ///< uniform samples of one period, also those that periods are compared on
   double period_tolerance = 1e-7;  ///< on the relative rms difference of two periods [JL14, section 4]
   int max_periods = 2000;          ///< periods integrated at most
+  /// Estimated floating-point operations: the integration ends where max_periods would need more.
+  double max_operations = std::numeric_limits<double>::infinity();
   int longest = 16;  ///< periods after which a motion may repeat; 1 integrates on until two agree
   /// Called after each period with its number, from 1, and its relative rms difference to the one before
   /// (infinity after the first).
