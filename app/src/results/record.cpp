@@ -95,8 +95,10 @@ Record record_in_time(Scene scene, const StructureModel& model, const AnalysisOp
   Record record = response_record(scene, model, response);
   if (recorded) append_recorded(record, *recorded, scene, response.contact);
   if (recorded && affordable == scene.analysis.recorded_periods)
-    warn(record, "The record was ended after " + std::to_string(affordable) +
-                     " periods, which take some seconds. analysis.type = \"time_stepping\" records all.");
+    warn(record,
+         "The record was ended after {} periods, which take some seconds. analysis.type = \"time_stepping\" "
+         "records all.",
+         affordable);
   return record;
 }
 
