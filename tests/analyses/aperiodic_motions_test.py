@@ -295,7 +295,7 @@ def test_a_response_that_does_not_exist_is_the_aperiodic_motion_with_its_statist
 
 def test_a_response_that_does_not_exist_is_recorded_as_long_as_some_seconds_allow(run, matrix):
     record = run(tube(matrix, recorded=2000))
-    assert record.summary["status"] == "aperiodic" and 500 < record.summary["recorded_periods"] < 2000
+    assert record.summary["status"] == "aperiodic" and 64 < record.summary["recorded_periods"] < 2000
     assert any('analysis.type = "time_stepping" records all' in warning for warning in record.summary["warnings"])
 
 

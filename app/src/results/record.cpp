@@ -105,7 +105,7 @@ Record record_in_time(Scene scene, const StructureModel& model, const AnalysisOp
 /// The motion in time instead of a response that was not found, if it is aperiodic and some seconds suffice.
 std::optional<Record> aperiodic_record(const Scene& scene, const StructureModel& model,
                                        const AnalysisOptions& how) {
-  constexpr double most_operations = 2e10;
+  constexpr double most_operations = 1e10;
   const auto in_time = changed_scene(scene, statistics_in_time());
   if (!in_time || scene.analysis.recorded_periods == 0) return std::nullopt;
   Record record = record_in_time(*in_time, model, how, most_operations);
