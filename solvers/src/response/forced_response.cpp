@@ -259,7 +259,7 @@ Candidate rest_of(const Task& task, const Eigen::VectorXd& form) {
 
 /// With the contacts that are closed at rest as springs of the structure. They may stay closed where the
 /// motion without contact would open all of them, as springs and dimples that press against each other. Sets
-/// `settled` if it is not known.
+/// `settled` if it is not known. An aperiodic motion is not integrated once more.
 Candidate solve_from_rest(const Task& task, const Eigen::VectorXd& form, AttractorMotion& settled) {
   const Candidate rest = rest_of(task, form);
   if (!rest.converged()) return no_solution(rest.newton.status, form, {});
@@ -271,7 +271,8 @@ Candidate solve_from_rest(const Task& task, const Eigen::VectorXd& form, Attract
   if (!found.ended())
     found = better(std::move(found), try_homotopy(beside, {}, rest.unknown, Strategy::load_continuation));
   AttractorMotion attractor;
-  if (!found.ended()) found = solve_attractor(beside, {}, linear, std::move(found), attractor);
+  const bool aperiodic = settled.attractor_periods == 0;
+  if (!found.ended() && !aperiodic) found = solve_attractor(beside, {}, linear, std::move(found), attractor);
   if (settled.attractor_periods == AttractorMotion::unknown && attractor.integrated()) {
     settled = std::move(attractor);
     settled.last.force = task.laws.force(settled.last.displacement);
