@@ -59,7 +59,7 @@ Scale take_to_scale(std::vector<double>& values) {
 
 bool takes_prefix(std::string_view unit) {
   constexpr std::array fixed{"",     "kg m",  "mm",     "µm",      "mrad", "deg",
-                             "mm/s", "deg/s", "mm/s^2", "deg/s^2", "g"};
+                             "mm/s", "deg/s", "mm/s^2", "deg/s^2", "g",    "m3"};
   return std::ranges::find(fixed, unit) == fixed.end();
 }
 

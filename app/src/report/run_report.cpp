@@ -38,6 +38,20 @@ std::string folded_table(const Summary& summary, const std::string& name, const 
   return table == nullptr ? "" : folded(title, table_html(shown_rows(*table)));
 }
 
+/// What was measured of an aperiodic motion, in units with prefixes.
+std::string statistics_of_record(const Summary& summary) {
+  const Table* table = table_of(summary, "statistics");
+  if (table == nullptr) return "";
+  std::vector<std::vector<std::string>> rows{{"place", "quantity", "value", "error"}};
+  for (std::size_t i = 0; i < table->rows(); ++i) {
+    const std::string unit = cell_text(table->at(i, "unit"));
+    rows.push_back({cell_text(table->at(i, "place")), cell_text(table->at(i, "quantity")),
+                    quantity(table->numbers("value")[i], unit),
+                    quantity(table->numbers("error")[i], unit, 2)});
+  }
+  return folded("Statistics", table_html(rows));
+}
+
 /// The picture of the record.
 std::string record_picture(const std::vector<RecordFile>& files, const std::string& heading) {
   const auto drawn =
@@ -154,7 +168,7 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
               (record.figure.panels.empty() ? "" : record_picture(files, heading)) + motion(files) +
               in_space + paragraph(rest_sentences(scene, summary)) +
               folded_table(summary, "at_rest", "At rest under the static loads") +
-              folded_table(summary, "statistics", "Statistics") +
+              statistics_of_record(summary) +
               folded_table(summary, "period_intervals", "Intervals of one period") +
               folded_table(summary, "hysteresis", "Hysteresis") + motions_of_record(scene, summary)) +
       section_html(
