@@ -206,10 +206,11 @@ std::string hysteresis_sentence(const Table& hysteresis, bool both_ways, const S
 
 std::string quasi_periodic_sentence(std::int64_t aperiodic, std::int64_t quasi_periodic) {
   if (aperiodic == 0) return "";
+  if (quasi_periodic == 0) return "None of the aperiodic motions is quasi-periodic.";
   return fmt::format(
-      "At {} of {} values without a period the motion is quasi-periodic: its section is a "
-      "closed curve. envelope.csv has its second frequency.",
-      quasi_periodic, aperiodic);
+      "{} of {} aperiodic motions {} quasi-periodic: the section is a closed curve. envelope.csv has the "
+      "second frequency.",
+      quasi_periodic, aperiodic, quasi_periodic == 1 ? "is" : "are");
 }
 
 std::string exact_sentence(const Diagram& diagram) {
@@ -220,9 +221,10 @@ std::string exact_sentence(const Diagram& diagram) {
     return "Exact curves are drawn for sections of contacts only.";
   if (status == "not_sought" || status.empty()) return "";
   if (status == "refused") return "There is no exact curve of this scene.";
-  return "Lines are exact periodic solutions, dashed where they are unstable, from one end of the interval (" +
-         spaced_words(status) + ")" +
-         (back.empty() ? "." : " and from the other (" + spaced_words(back) + "). Others may be missing.");
+  const std::string lines = "Lines are exact periodic solutions, dashed where they are unstable. ";
+  return back.empty() ? lines + "They begin at one end of the interval (" + spaced_words(status) + ")."
+                      : lines + "They begin at both ends of the interval (" + spaced_words(status) + ", " +
+                            spaced_words(back) + "). Others may be missing.";
 }
 
 std::int64_t count_of(const Diagram& diagram, bool (*which)(const DiagramValue&)) {
