@@ -172,7 +172,9 @@ void append_structure_points(Record& record, const Sweep& sweep) {
          points.of_balance.size(), repeated + none, fmt::join(errors, " and "),
          points.events.empty()
              ? std::string("No exact point was found.")
-             : fmt::format("structure_special_points lists the {} exact ones.", points.events.size()));
+             : "structure_special_points lists " +
+                   (points.events.size() == 1 ? std::string("the exact one.")
+                                              : fmt::format("the {} exact ones.", points.events.size())));
   if (left == 0) return;
   warn(record,
        "For {} of {} bifurcation or grazing points of the curve no exact one was found or "
