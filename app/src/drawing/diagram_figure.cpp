@@ -63,8 +63,10 @@ void add_periods(Figure& figure, const Diagram& diagram) {
     most = std::max(most, one.period);
   }
   panel.y.upper = most + 0.5;
-  panel.add(std::move(back));
-  panel.add(std::move(there));
+  for (Series* series : {&back, &there}) {
+    series->marker_size = 2.0 * dot_size;
+    panel.add(std::move(*series));
+  }
 }
 
 /// The invariant curve in the section of the leading place.
