@@ -40,14 +40,14 @@ window.look ??= (() => {
   }
   const overlap = (a, b) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 4 && b.top < a.bottom - 4;
   function unreadable() {
-    // Keys of lists, numbers of tables and options of commands that are broken, and panels with a letter and no title.
+    // Keys of lists, numbers, quantities and options of commands that are broken, and panels with a letter and no title.
     const lines = (one) => { const range = document.createRange(); range.selectNodeContents(one); return range.getClientRects().length; };
     const broken = [...document.querySelectorAll("dt")].filter((one) => !one.textContent.includes(" ") && lines(one) > 1);
     const torn = [...document.querySelectorAll("td")].filter((one) => one.textContent && Number.isFinite(Number(one.textContent)) && lines(one) > 1);
-    const options = [...document.querySelectorAll("pre code, td")].flatMap((one) => {
+    const whole = (selector, pattern) => [...document.querySelectorAll(selector)].flatMap((one) => {
       const found = [], nodes = document.createTreeWalker(one, NodeFilter.SHOW_TEXT);
       for (let node = nodes.nextNode(); node; node = nodes.nextNode())
-        for (const { index, 0: word } of node.textContent.matchAll(/--[a-z-]+/g)) {
+        for (const { index, 0: word } of node.textContent.matchAll(pattern)) {
           const range = document.createRange();
           range.setStart(node, index);
           range.setEnd(node, index + word.length);
@@ -55,6 +55,8 @@ window.look ??= (() => {
         }
       return found;
     });
+    const options = [...whole("pre code, td", /--[a-z-]+/g), ...whole("main :is(p, li, dd, td)", /\d (?:± [\d.]+|[GMkmµn]?(?:Hz|N|J|m|s)\b|%)/g)];
+    const halved = [...document.querySelectorAll(".plot [clip-path] path:not(.curve)")].map(() => ({ textContent: "a symbol that an edge cuts" }));
     const untitled = [...document.querySelectorAll(".panel > p")].filter((one) => /^\([a-z]\)\s*$/.test(one.textContent));
     const cut = [...document.querySelectorAll(".plot .label, .plot .tick text, .motion text")].filter((one) => one.textContent).filter((one) => {
       const label = one.getBoundingClientRect(), box = one.closest("svg").getBoundingClientRect();
@@ -72,7 +74,7 @@ window.look ??= (() => {
       const numbers = [...axis.querySelectorAll(".tick text:not([visibility])")].filter((one) => one.textContent).map((one) => ({ one, box: one.getBoundingClientRect() }));
       return numbers.filter(({ box }, i) => i > 0 && overlap(box, numbers[i - 1].box)).map(({ one }) => one);
     });
-    return [...crowded, ...cut, ...raw, ...upon, ...faint, ...broken, ...torn, ...options, ...untitled].map((one) => one.textContent);
+    return [...crowded, ...cut, ...halved, ...raw, ...upon, ...faint, ...broken, ...torn, ...options, ...untitled].map((one) => one.textContent);
   }
 
   // Names of legends whose button hides nothing, or whose second click does not bring it back.

@@ -149,6 +149,7 @@
       this.xAxis = root.append("g").attr("class", "axis").attr("transform", `translate(0,${this.height})`);
       this.yAxis = root.append("g").attr("class", "axis");
       this.plot = root.append("g").attr("clip-path", `url(#${clip})`);
+      this.marks = root.append("g");  // not cut where they are on the edge
       this.outer = root.append("g");
       this.dot = root.append("circle").attr("class", "dot").attr("r", 4).attr("visibility", "hidden");
       title(root, this.data.x.label, this.width + margin.right, (i, n) => `translate(${this.width / 2},${this.height + (n === 1 ? 36 : 31 + 13 * i)})`);
@@ -213,12 +214,11 @@
         const format = tickFormat(given, axis.scale(), count, chosen);
         return axis.ticks(count).tickValues(chosen ? given.ticks : null).tickFormat((value, i) => format(value, i).replace(/,/g, ""));
       };
-      this.xAxis.call(ticks(d3.axisBottom(this.x), this.data.x, this.width / 80).tickSizeInner(-this.height).tickPadding(7));
-      this.yAxis.call(ticks(d3.axisLeft(this.y), this.data.y, this.height / 45).tickSizeInner(-this.width).tickPadding(7));
+      this.xAxis.call(ticks(d3.axisBottom(this.x), this.data.x, this.width / 80).tickSizeInner(-this.height).tickSizeOuter(0).tickPadding(7));
+      this.yAxis.call(ticks(d3.axisLeft(this.y), this.data.y, this.height / 45).tickSizeInner(-this.width).tickSizeOuter(0).tickPadding(7));
       this.spread(this.xAxis);
       this.svg.style("touch-action", transform.k > 1 ? "none" : "pan-y");
-      this.plot.selectAll("*").remove();
-      this.outer.selectAll("*").remove();
+      for (const group of [this.plot, this.marks, this.outer]) group.selectAll("*").remove();
       const areas = this.data.series.filter((series) => series.area && this.hidden.has(key(series))).map((series) => series.colour);
       this.data.rectangles.filter((one) => !areas.includes(one.colour)).forEach((one) => this.rectangle(one));
       this.data.segments.forEach((one) => this.segment(one));
@@ -271,6 +271,7 @@
       const { x, y } = this;
       const at = series.x.map((value, i) => [x(value), finite(x, value) && finite(y, series.y[i]) ? y(series.y[i]) : NaN]);
       const there = ([, v]) => Number.isFinite(v);
+      const inside = ([u, v]) => u > -0.5 && u < this.width + 0.5 && v > -0.5 && v < this.height + 0.5;
       if (series.style === "impulses") {
         for (const [u, v] of at.filter(there))
           this.plot.append("line").attr("x1", u).attr("x2", u).attr("y1", Math.min(this.height, y(0))).attr("y2", v)
@@ -282,7 +283,7 @@
           .attr("stroke-width", series.width).attr("stroke-dasharray", series.dash || null);
       }
       if (series.style !== "points" && series.style !== "line_points") return;
-      at.filter((point, i) => i % series.every === 0 && there(point)).forEach(([u, v]) => mark(this.plot, series, u, v));
+      at.filter((point, i) => i % series.every === 0 && inside(point)).forEach(([u, v]) => mark(this.marks, series, u, v));
     }
 
     // The point of a series next to the pixel (u, v): one of its points where they have symbols, else on the lines between.
@@ -350,8 +351,8 @@
     .find((one) => one.colour === series.colour)?.opacity ?? 1;
 
   // Meaning of the colours of a map.
-  const colourBar = ({ title, range, colours }) => element("span", { class: "range" }, ...html(title), ` ${number(range[0])} `,
-    element("span", { style: `background: linear-gradient(90deg, ${colours})` }), ` ${number(range[1])}`);
+  const colourBar = ({ title, range, colours }) => element("span", { class: "range" }, ...html(title), ` ${wavebalance.number(range[0])} `,
+    element("span", { style: `background: linear-gradient(90deg, ${colours})` }), ` ${wavebalance.number(range[1])}`);
 
   function legend(data, hidden, redraw) {
     const entries = new Map();
@@ -397,6 +398,7 @@
     box.replaceChildren();
     if (data.title) box.append(element("p", { class: "title" }, ...html(data.title)));
     box.append(legend(data, hidden, redraw), grid);
+    box.querySelectorAll(".title").forEach(wavebalance.keepTogether);
     data.panels.forEach((panel, index) => {
       const letter = data.letters ? [element("b", {}, `(${String.fromCharCode(97 + index)}) `)] : [];
       const place = element("div", { class: "panel" }, element("p", {}, ...letter, ...html(panel.title)));
