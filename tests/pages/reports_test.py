@@ -84,6 +84,25 @@ def test_the_table_of_motions_is_whole_or_keeps_the_names_of_its_rows(look, brow
     assert browser.value(left) == before
 
 
+def test_statistics_have_units_and_are_whole_beside_the_picture(look, browser, report, scenes):
+    look.open(made(report, scenes, "aperiodic motion") / "report.html")
+    browser.value("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
+    box = "[...document.querySelectorAll('summary')].find((one) => one.textContent === 'Statistics').nextElementSibling"
+    assert browser.value(f"{box}.scrollWidth - {box}.clientWidth") == 0
+    rows = browser.value(f"[...{box}.querySelectorAll('tbody tr')].map((one) => [...one.children].map((cell) => cell.textContent))")
+    assert all(len(row) == 4 for row in rows), rows
+    speed = next(row for row in rows if row[1] == "velocity_rms")
+    assert speed[2].endswith(" mm/s") and speed[3].endswith("m/s"), speed
+
+
+def test_a_dark_screen_prints_dark_letters_on_white(look, browser, report, scenes):
+    look.open(made(report, scenes, "sweep") / "report.html", dark=True)
+    browser.send("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+    shades = browser.value("['backgroundColor', 'color'].map((name) => getComputedStyle(document.body)[name])")
+    browser.send("Emulation.setEmulatedMedia", media="")
+    assert shades == ["rgb(255, 255, 255)", "rgb(29, 35, 41)"]
+
+
 def test_on_a_wide_screen_what_follows_the_picture_stands_beside_it(look, browser, report, scenes):
     look.open(made(report, scenes, "forced response") / "report.html")
     places = browser.value("""["figure", ".motion"].map((one) => document.querySelector(one).getBoundingClientRect())
