@@ -41,6 +41,7 @@ def test_a_notebook_shows_curves_and_responses_as_pictures(curve, oscillator):
         page = one._repr_html_()
         picture = ElementTree.fromstring(page[page.index("<svg") :])
         assert picture.findall("{http://www.w3.org/2000/svg}polyline")
+        assert "background: white" in picture.get("style")  # a dark notebook has it too
     assert "stroke-dasharray" in curve._repr_html_() or not (curve.unstable > 0).any()
 
 

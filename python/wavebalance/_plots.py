@@ -178,7 +178,7 @@ def svg(lines: list[Line], x_name: Name, y_name: Name, title: str) -> str:
             pattern = ' stroke-dasharray="5 4"' if broken else ""
             body += f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="1.6"{pattern}/>'
     return (
-        f'{heading}<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {_HEIGHT}" style="max-width: {_WIDTH}px"'
+        f'{heading}<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {_HEIGHT}" style="max-width: {_WIDTH}px; background: white"'
         f' role="img" font-family="sans-serif" font-size="12">{body}</svg>'
     )
 
