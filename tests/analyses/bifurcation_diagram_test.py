@@ -71,6 +71,21 @@ def test_motions_that_coexist_are_met_on_different_ways(run, hammer):
     assert "Backward (m/s^2): period 1 at 36 to 34; period 2 at 33.5 to 32." in page
 
 
+def test_the_largest_displacement_of_impacts_is_the_gap(run, hammer):
+    record = run(STRUCTURE + DIAGRAM, set=["analysis.values=2", "analysis.both_ways=false", "analysis.exact_curve=false"])
+    for row in rows_of(record.folder / "envelope.csv"):
+        assert float(row["contact_1_max_m"]) == pytest.approx(GAP, rel=1e-9)
+
+
+def test_a_motion_that_still_settles_is_not_quasi_periodic(run, hammer):
+    record = run(STRUCTURE + DIAGRAM, set=["analysis.amplitude_from=5.0", "analysis.amplitude_to=6.0", "analysis.values=2",
+                                           "analysis.transient_periods=20", "analysis.both_ways=false",
+                                           "analysis.exact_curve=false"])
+    assert "still transient" in record.errors
+    assert all(np.isnan(float(row["rotation_number"])) for row in rows_of(record.folder / "envelope.csv"))
+    assert "quasi-periodic" not in (record.folder / "bifurcation.svg").read_text()
+
+
 def test_the_exact_curve_passes_through_the_dots(run, hammer):
     record = run(STRUCTURE + DIAGRAM, set=["analysis.amplitude_from=40.0", "analysis.amplitude_to=30.0", "analysis.values=3",
                                            "analysis.both_ways=false"])

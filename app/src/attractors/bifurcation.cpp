@@ -59,8 +59,9 @@ class PassedValues {
     };
     DiagramValue result{.value = value, .forwards = forwards};
     const solvers::LongMotion motion = solvers::long_motion(
-        *flow, options,
-        [&](const solvers::ContactFlow&, const solvers::Motion& period) { widen(result, period); });
+        *flow, options, [&](const solvers::ContactFlow& passed, const solvers::Motion& period) {
+          widen(result, solvers::reach_of(passed, period));
+        });
     if (motion.cancelled) return std::nullopt;
     if (motion.ended != solvers::FlowStatus::converged) {
       result.failure = to_string(motion.ended);
@@ -80,12 +81,10 @@ class PassedValues {
   }
 
  private:
-  static void widen(DiagramValue& value, const solvers::Motion& period) {
-    const Eigen::VectorXd most = period.displacement.rowwise().maxCoeff(),
-                          least = period.displacement.rowwise().minCoeff();
+  static void widen(DiagramValue& value, const solvers::Reach& reach) {
     const bool first = value.highest.size() == 0;
-    value.highest = first ? most : Eigen::VectorXd(value.highest.cwiseMax(most));
-    value.lowest = first ? least : Eigen::VectorXd(value.lowest.cwiseMin(least));
+    value.highest = first ? reach.highest : Eigen::VectorXd(value.highest.cwiseMax(reach.highest));
+    value.lowest = first ? reach.lowest : Eigen::VectorXd(value.lowest.cwiseMin(reach.lowest));
   }
 
   const Scene& scene_;

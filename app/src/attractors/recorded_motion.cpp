@@ -36,7 +36,8 @@ class PeriodBook {
   }
 
   void add(const solvers::ContactFlow& flow, const solvers::Motion& period) {
-    for (std::size_t row = 0; row < values_.size(); ++row) add_row(row, period);
+    const solvers::Reach reach = solvers::reach_of(flow, period);
+    for (std::size_t row = 0; row < values_.size(); ++row) add_row(row, period, reach);
     for (std::size_t row = 0; row < series_.size(); ++row)
       for (Eigen::Index k = 0; k < period.displacement.cols(); k += stride_)
         series_[row].push_back(period.displacement(Eigen::Index(row), k));
@@ -48,7 +49,7 @@ class PeriodBook {
   const std::vector<std::vector<double>>& series() const { return series_; }
 
  private:
-  void add_row(std::size_t row, const solvers::Motion& period) {
+  void add_row(std::size_t row, const solvers::Motion& period, const solvers::Reach& reach) {
     PeriodValues& values = values_[row];
     const Eigen::RowVectorXd u = period.displacement.row(Eigen::Index(row)),
                              v = period.velocity.row(Eigen::Index(row)),
@@ -57,8 +58,8 @@ class PeriodBook {
     values["u"].push_back(u.mean());
     values["uu"].push_back(u.squaredNorm() / points);
     values["vv"].push_back(v.squaredNorm() / points);
-    values["top"].push_back(u.maxCoeff());
-    values["bottom"].push_back(-u.minCoeff());
+    values["top"].push_back(reach.highest[Eigen::Index(row)]);
+    values["bottom"].push_back(-reach.lowest[Eigen::Index(row)]);
     if (int(row) >= contacts_) return;
     values["f"].push_back(f.mean());
     values["ff"].push_back(f.squaredNorm() / points);

@@ -65,7 +65,7 @@ Table envelope_table(const Scene& scene, const Diagram& diagram) {
     const bool found = one.is_quasi_periodic();
     const double rotation = found ? one.curve.rotation : missing;
     std::vector<Cell> row = row_of(one.value, way_of(one), one.period, rotation * load_frequency(scene, one),
-                                   rotation, one.period == 0 ? one.curve.residual : missing,
+                                   rotation, one.period == 0 && !one.settles ? one.curve.residual : missing,
                                    found ? double(one.curve.harmonics()) : missing);
     for (std::size_t i = 0; i < diagram.places.size(); ++i)
       for (const Eigen::VectorXd* reach : {&one.highest, &one.lowest})

@@ -101,6 +101,16 @@ LongMotion long_motion(ContactFlow& flow, const LongMotionOptions& options,
   return result;
 }
 
+Reach reach_of(const ContactFlow& flow, const Motion& period) {
+  Reach reach{period.displacement.rowwise().maxCoeff(), period.displacement.rowwise().minCoeff()};
+  for (const FlowEvent& event : flow.events()) {
+    if (event.impulse == 0.0) continue;
+    reach.highest[event.row] = std::max(reach.highest[event.row], event.displacement);
+    reach.lowest[event.row] = std::min(reach.lowest[event.row], event.displacement);
+  }
+  return reach;
+}
+
 Eigen::MatrixXd section_points(const LongMotion& motion, double frequency) {
   Eigen::MatrixXd points(2 * motion.displacement.rows(), motion.recorded());
   points << motion.displacement, motion.velocity / (2.0 * std::numbers::pi * frequency);

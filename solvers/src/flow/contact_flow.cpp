@@ -220,6 +220,8 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
     event.impulse = impulse->value;
     event.speed = speed.value;
     event.after = -rebound * speed.value;
+    event.row = int(row);
+    event.displacement = signals[0](row, 0);
     const Eigen::VectorXcd left = poles_.inputs().col(row) * impulse->value;
     states_ -= left;
     for (int d = 0; d < detail::levels; ++d) after[std::size_t(d)] -= (poles_.outputs(d) * left).real();

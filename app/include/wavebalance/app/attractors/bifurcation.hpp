@@ -22,7 +22,7 @@ struct DiagramValue {
   solvers::InvariantCurve curve = {};                ///< through the section of a motion without a period
 
   bool is_quasi_periodic() const {
-    return failure.empty() && period == 0 && curve.residual <= largest_curve_residual;
+    return failure.empty() && period == 0 && !settles && curve.residual <= largest_curve_residual;
   }
 };
 

@@ -44,6 +44,13 @@ struct LongMotion {
 LongMotion long_motion(ContactFlow& flow, const LongMotionOptions& options,
                        const std::function<void(const ContactFlow&, const Motion&)>& visit = {});
 
+/// The highest and the lowest displacement of each row over a recorded period: of its samples, and of its
+/// impacts, which are between them.
+struct Reach {
+  Eigen::VectorXd highest, lowest;
+};
+Reach reach_of(const ContactFlow& flow, const Motion& period);
+
 /// 2 R x periods: displacements, and below them velocities over the angular frequency, which `frequency` (Hz)
 /// makes lengths, too.
 Eigen::MatrixXd section_points(const LongMotion& motion, double frequency);

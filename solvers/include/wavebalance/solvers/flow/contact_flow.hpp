@@ -44,9 +44,11 @@ struct FlowEvent {
   double time = 0.0;  ///< s, from the beginning of the period
   int contact = 0;    ///< number of the machine
   int from = 0, to = 0;
-  double impulse = 0.0;  ///< N s
-  double speed = 0.0;    ///< m/s, before an impact
-  double after = 0.0;    ///< m/s, behind it
+  double impulse = 0.0;       ///< N s
+  double speed = 0.0;         ///< m/s, before an impact
+  double after = 0.0;         ///< m/s, behind it
+  int row = 0;                ///< of the impulse
+  double displacement = 0.0;  ///< m, of this row at an impact
 };
 
 /// The contacts at a time, R rows.
