@@ -159,3 +159,8 @@ def test_a_motion_that_stays_below_the_gap_has_no_impacts():
     record = wb.run(scene_of(oscillator(0.1, 10.5, 0.8, 1.0)))
     assert record.converged and record.summary["impacts"] == 0.0 and record.summary["unstable_multipliers"] == 0
     assert abs(leading(record.summary)) ** 2 == pytest.approx(math.exp(-0.2 * math.pi), abs=1e-14, rel=0.0)
+
+
+def test_a_motion_without_impacts_has_no_panel_of_them():
+    drawn = wb.run(scene_of(oscillator(0.1, 50.0, 0.7, 0.9))).svg()
+    assert "Velocity" in drawn and "Impulses of impacts" not in drawn

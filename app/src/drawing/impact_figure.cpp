@@ -49,14 +49,14 @@ void add_impulses(Figure& figure, const PeriodWindow& window, const std::string&
     times.push_back(impact.time);
     impulses.push_back(impact.impulse);
   }
-  const double largest = impulses.empty() ? 0.0 : *std::ranges::max_element(impulses);
+  if (impulses.empty()) return;
+  const double largest = *std::ranges::max_element(impulses);
   const Scale scale = take_to_scale(impulses);
   Panel& panel = figure.add_panel(title);
   panel.x = window.axis();
   panel.y.label = "Impulse (" + scale.prefix + "N s)";
   panel.y.lower = 0.0;
   if (largest > 0.0) panel.y.upper = 1.1 * scale.factor * largest;
-  if (largest == 0.0) panel.y.upper = 1.0;
   panel.add({"", times, impulses, SeriesStyle::impulses});
 }
 
