@@ -1,5 +1,7 @@
 """Nonlinear modes of one mass with springs that act on both sides, laws without a gap, and a stop with damping."""
 
+import re
+
 import numpy as np
 import pytest
 import wavebalance as wb
@@ -72,7 +74,7 @@ def test_a_length_is_needed_where_no_gap_is_one_and_no_other_is_taken(contact, a
     assert part in refused.value.allowed
 
 
-def test_the_mode_has_the_damping_that_a_stop_takes_over_the_amplitude():
+def test_the_mode_has_the_damping_that_a_stop_takes_over_the_amplitude(tmp_path):
     """u'' + u + f = 0 with f = 3 (u - 1/2) + c u' beyond the stop: the work of the damper over a period equals the
     work of the artificial damping, xi times the mean square of the velocity, which gives the decay of a free
     motion."""
@@ -84,6 +86,10 @@ def test_the_mode_has_the_damping_that_a_stop_takes_over_the_amplitude():
     assert damping[0] == pytest.approx(0.0, abs=1e-10)
     assert frequencies[0] == pytest.approx(1.0, abs=1e-9)
     assert ratios[-1] > 5.9 and damping[-1] > 0.003 and frequencies[-1] > 1.1
+    record.write(tmp_path)
+    page = re.sub(r"\s+", " ", (tmp_path / "report.html").read_text())
+    assert "no contact slips, opens or closes, and the frequency is" in page
+    assert f"The frequency is 1 to {frequencies.max():.4g} times this value." in page
     # One motion: the damper dissipates the energy of the artificial damping.
     motion = solved(DAMPED, **fine, amplitude_ratio=3.0)
     force, velocity = motion.response["contact_force_N"], motion.response["velocity_m_per_s"]

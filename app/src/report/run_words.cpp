@@ -273,13 +273,15 @@ void append_damped_mode(std::vector<std::string>& sentences, const Summary& summ
   const double most = number_in(summary, quantities::largest_damping_ratio);
   if (std::isfinite(most)) {
     sentences.push_back(fmt::format(
-        "Mode {:.0f} was followed over {}. Below an amplitude of {} no contact slips and the frequency is {}.",
+        "Mode {:.0f} was followed over {}. Below an amplitude of {} no contact slips, opens or closes, and "
+        "the frequency is {}.",
         number_in(summary, quantities::mode), count_of(summary, quantities::points, "point"),
         quantity(number_in(summary, quantities::slip_amplitude), length_unit(summary)),
         with_unit(summary, quantities::linear_frequency)));
-    sentences.push_back(
-        fmt::format("The frequency falls to {} of this value. The damping ratio is at most {}.",
-                    short_number(number_in(summary, quantities::least_frequency_ratio)), short_number(most)));
+    sentences.push_back(fmt::format(
+        "The frequency is {} to {} times this value. The damping ratio is at most {}.",
+        short_number(number_in(summary, quantities::least_frequency_ratio)),
+        short_number(number_in(summary, quantities::largest_frequency_ratio)), short_number(most)));
   } else if (const double ratio = number_in(summary, quantities::damping_ratio); std::isfinite(ratio)) {
     sentences.push_back(
         fmt::format("The free motion of mode {:.0f} has the frequency {} and the damping ratio {}.",

@@ -60,9 +60,9 @@ Record curve_record(const DampedStudy& study, const StructureModel& model, const
   record.add(quantities::points, curve.points.size());
   record.add(quantities::largest_damping_ratio,
              largest_of(curve.points, [](const auto& point) { return point.damping_ratio(); }));
-  record.add(quantities::least_frequency_ratio, least_of(curve.points, [&](const auto& point) {
-               return point.omega / study.mode().linear_omega();
-             }));
+  const auto ratio = [&](const auto& point) { return point.omega / study.mode().linear_omega(); };
+  record.add(quantities::least_frequency_ratio, least_of(curve.points, ratio));
+  record.add(quantities::largest_frequency_ratio, largest_of(curve.points, ratio));
   record.backbone = damped_table(study, curve);
   const std::vector<ModeOutput> outputs =
       append_outputs(record, study.scene(), measure_outputs(study, curve, observer));
