@@ -120,6 +120,16 @@ std::string curve_of_part(const Table& parts, std::size_t row) {
   return "isola " + isola + (branch == "0" ? "" : ", branch " + branch + ",");
 }
 
+/// "60 to 80 Hz", "800 µm to 1.2 mm", and one value where both are the same text.
+std::string range_text(double begin, double end, const std::string& unit) {
+  std::string first = quantity(begin, unit, 7);
+  const std::string last = quantity(end, unit, 7);
+  if (first == last) return last;
+  const std::string shown = last.substr(last.rfind(' '));
+  if (first.ends_with(shown)) first.resize(first.size() - shown.size());
+  return first + " to " + last;
+}
+
 /// The unstable parts of the curve, of each branch and of each isola.
 std::vector<std::string> unstable_parts(const Summary& summary, const SweepAxis& axis) {
   if (find_entry(summary, quantities::points_stability_not_known.name) == nullptr) return {};
@@ -137,9 +147,7 @@ std::vector<std::string> unstable_parts(const Summary& summary, const SweepAxis&
     const std::string curve = curve_of_part(*parts, i);
     if (places.empty() || places.back().first != curve)
       places.emplace_back(curve, std::vector<std::string>());
-    const std::string begin = short_number(begins[i], 7), end = short_number(ends[i], 7);
-    places.back().second.push_back(begin == end ? quantity(ends[i], axis.unit, 7)
-                                                : begin + " to " + end + " " + axis.unit);
+    places.back().second.push_back(range_text(begins[i], ends[i], axis.unit));
   }
   std::vector<std::string> sentences;
   for (const auto& [curve, where] : places)

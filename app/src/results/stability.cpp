@@ -70,14 +70,14 @@ void warn_of_quasi_periodic_motions(Record& record, const std::vector<solvers::S
   std::vector<std::string> places;  // as they are printed, each once
   for (const auto& point : points) {
     if (point.type != solvers::SpecialPointType::neimark_sacker) continue;
-    const std::string place = short_number(parameter_of(point, sweep.curve.parameter), 6);
+    const std::string place = quantity(parameter_of(point, sweep.curve.parameter), sweep_axis(sweep).unit, 6);
     if (std::ranges::find(places, place) == places.end()) places.push_back(place);
   }
   if (places.empty()) return;
   warn(record,
-       "At the Neimark-Sacker point{} {} {} quasi-periodic motions begin, which are not on the "
+       "At the Neimark-Sacker point{} {} quasi-periodic motions begin, which are not on the "
        "curve. analysis.type = \"bifurcation_diagram\" follows them, and `wavebalance overlay` draws both.",
-       places.size() == 1 ? "" : "s", fmt::join(places, ", "), sweep_axis(sweep).unit);
+       places.size() == 1 ? "" : "s", fmt::join(places, ", "));
 }
 
 /// Where no motion of the curve stays.
