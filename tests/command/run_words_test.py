@@ -83,6 +83,27 @@ def test_unstable_parts_of_a_curve_and_of_its_branches_are_named(told, scenes):
                    f"Stability is known at {known} of {summary['points']} points. Near grazing, contact lasts less") == []
 
 
+DUFFING = {"structure": {"type": "matrices", "mass": np.eye(1), "stiffness": np.eye(1), "damping": 0.05 * np.eye(1),
+                         "contact_dofs": [1]},
+           "contact": {"law": "cubic", "cubic_stiffness": 1.0}, "forcing": {"amplitude": 0.3, "frequency": 0.25, "load_dofs": [1]},
+           "time": {"trial": "fourier", "weight": "fourier", "functions": 31},
+           "analysis": {"type": "amplitude_sweep", "amplitude_from": 0.05, "amplitude_to": 0.9, "outputs": [1]}}
+
+
+def test_places_on_a_curve_have_the_same_unit_in_all_sentences(told):
+    summary, text = told(DUFFING)
+    begin, end = (1e3 * summary["unstable_parts"][f"{which}_N"][0] for which in ("begin", "end"))
+    fold = 1e3 * summary["special_points"]["amplitude_N"][0]
+    assert lacking(text, f"motions are unstable at {begin:.7g} to {end:.7g} mN.",
+                   f"where the curve turns back: {fold:.7g} mN") == []
+
+
+def test_harmonics_that_are_zero_are_not_in_the_legend(tmp_path):
+    wb.run(DUFFING, output=tmp_path / "out")
+    drawn = (tmp_path / "out" / "outputs.figure.js").read_text()
+    assert '"harmonic 3"' in drawn and '"harmonic 2"' not in drawn
+
+
 def two_masses(**analysis):
     """The first meets a stop, the second has a weight and hardly a link to the first."""
     return {"structure": {"type": "matrices", "mass": np.eye(2), "stiffness": np.array([[1e4, -1e-6], [-1e-6, 4e4]]),

@@ -103,6 +103,7 @@ Figure empty_figure(const std::string& title, std::size_t outputs) {
 void add_harmonics(Figure& figure, const Sweep& sweep, const SweepLine& line, const Output& output,
                    std::size_t index) {
   constexpr int most = 5;
+  constexpr double rounding = 1e-9;  // of the largest; such harmonics are zero
   double largest = 0.0;
   std::vector<std::vector<double>> amplitudes;
   for (int n = 1; n <= most; ++n) {
@@ -117,7 +118,7 @@ void add_harmonics(Figure& figure, const Sweep& sweep, const SweepLine& line, co
   panel.y.lower = 0.0;
   for (std::size_t n = 0; n < amplitudes.size(); ++n)
     if (Series series = line.series("harmonic " + std::to_string(n + 1), amplitudes[n], scale.factor);
-        largest_of(series.y, 0.0) > 0.0) {
+        largest_of(series.y, 0.0) > rounding * scale.factor * largest) {
       series.colour = Colour::automatic;
       panel.add(std::move(series));
     }
@@ -230,7 +231,8 @@ Panel vibration_panel(const Sweep& sweep, const SweepOutputs& outputs, std::opti
 
 Figure outputs_figure(const Sweep& sweep, const SweepOutputs& outputs,
                       const std::vector<SceneContact>& contacts) {
-  Figure figure = empty_figure("Vibration of each output, half peak to peak", outputs.outputs.size());
+  Figure figure =
+      empty_figure("Outputs along the curve (vibration: half peak to peak)", outputs.outputs.size());
   const std::vector<SweepLine> lines = lines_of(sweep, outputs);
   for (std::size_t i = 0; i < std::min(outputs.outputs.size(), most_drawn_outputs); ++i) {
     const Scale scale = scale_of(lines, i, outputs.outputs[i].unit);
@@ -248,7 +250,7 @@ Figure outputs_figure(const Sweep& sweep, const SweepOutputs& outputs,
 
 Figure outputs_figure(const std::vector<Output>& outputs, const Eigen::MatrixXd& motion,
                       const PeriodWindow& window) {
-  Figure figure = empty_figure("Motion of each output", outputs.size());
+  Figure figure = empty_figure("Motion of the outputs", outputs.size());
   for (std::size_t i = 0; i < std::min(outputs.size(), most_drawn_outputs); ++i) {
     const auto row = motion.row(Eigen::Index(i));
     const Scale scale = axis_scale(row.cwiseAbs().maxCoeff(), outputs[i].unit);

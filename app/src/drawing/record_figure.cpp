@@ -168,9 +168,15 @@ void label_once(Panel& panel, std::size_t first) {
   panel.series.erase(panel.series.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
-/// The largest displacements along one of the curves of a sweep, and the rms ones of the first.
+/// What is drawn of the main curve in addition to its largest displacements.
+struct Second {
+  std::string label;
+  PointValue value;
+};
+
+/// The largest displacements along one of the curves of a sweep, and others of the first.
 void add_displacements_of(Panel& panel, const SweepLine& line, const std::vector<PlacedPoint>& special,
-                          double factor) {
+                          double factor, const Second& second) {
   const bool main = line.name.empty();
   if (line.curve.points.empty()) return;
   const Series largest =
@@ -181,19 +187,22 @@ void add_displacements_of(Panel& panel, const SweepLine& line, const std::vector
     draw_by_stability(panel, largest, line.stability.points, special);
     return label_once(panel, before);
   }
-  Series rms = line.series("rms including mean",
-                           values_along(line.curve, &solvers::SweepPoint::rms_displacement), factor);
-  rms.colour = Colour::orange;
+  Series other = line.series(second.label, values_along(line.curve, second.value), factor);
+  other.colour = Colour::orange;
   add_curve(panel, largest, line.stability.points, special);
-  add_curve(panel, rms, line.stability.points, {});
+  add_curve(panel, other, line.stability.points, {});
 }
 
-/// Largest and rms displacement of the contacts with their gap.
+/// Largest displacement of the contacts with their gap, and the rms one; below a panel with the rms without
+/// mean the least.
 void add_displacements_along(Figure& figure, const Scene& scene, const Sweep& sweep) {
   const std::vector<SweepLine> lines = lines_of(sweep);
   const std::vector<double> values = displacements_of(lines);
   const double largest = *std::ranges::max_element(values);
   const double top = shown_top(sweep, values);
+  const Second second = figure.panels.empty()
+                            ? Second{"rms including mean", &solvers::SweepPoint::rms_displacement}
+                            : Second{"least", &solvers::SweepPoint::min_displacement};
   const Scale scale = axis_scale(top);
   const std::string unit = displacement_unit(scene);
   Panel& panel = figure.add_panel("Displacement of the contacts", sweep_axis(sweep).label(),
@@ -202,11 +211,14 @@ void add_displacements_along(Figure& figure, const Scene& scene, const Sweep& sw
   for (const SweepLine& line : lines) {
     const std::vector<PlacedPoint> special =
         line.placed([&](const solvers::SpecialPoint& one) { return scale.factor * one.max_displacement; });
-    add_displacements_of(panel, line, special, scale.factor);
+    add_displacements_of(panel, line, special, scale.factor, second);
     marks.insert(marks.end(), special.begin(), special.end());
   }
   draw_special_points(panel, marks);
-  if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
+  if (top < largest) {
+    panel.y.upper = 1.1 * scale.factor * top;
+    if (second.label == "least") panel.y.lower = -*panel.y.upper;
+  }
   if (const double gap = common_gap(scene); !std::isnan(gap))
     panel.mark_level(scale.factor * gap, "gap", quantity(gap, unit));
 }
