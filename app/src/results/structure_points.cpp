@@ -165,11 +165,15 @@ void append_structure_points(Record& record, const Sweep& sweep) {
                      left = count_of(points, StructurePointStatus::not_known) +
                             count_of(points, StructurePointStatus::not_sought);
   std::vector<std::string> errors;
-  if (repeated > 0) errors.push_back(fmt::format("{} repeat another one", repeated));
-  if (none > 0) errors.push_back(fmt::format("{} have no exact point of their type nearby", none));
+  if (repeated > 0)
+    errors.push_back(fmt::format("{} repeat{} another one", repeated, repeated == 1 ? "s" : ""));
+  if (none > 0)
+    errors.push_back(
+        fmt::format("{} {} no exact point of the same type nearby", none, none == 1 ? "has" : "have"));
   if (!errors.empty())
-    warn(record, "The curve has {} bifurcation or grazing points; {} are discretisation artefacts: {}. {}",
-         points.of_balance.size(), repeated + none, fmt::join(errors, " and "),
+    warn(record, "The curve has {} bifurcation or grazing points; {} discretisation artefact{}: {}. {}",
+         points.of_balance.size(), repeated + none == 1 ? "1 is a" : fmt::format("{} are", repeated + none),
+         repeated + none == 1 ? "" : "s", fmt::join(errors, " and "),
          points.events.empty()
              ? std::string("No exact point was found.")
              : "structure_special_points lists " +
