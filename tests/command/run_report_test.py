@@ -71,7 +71,7 @@ def test_tables_have_the_digits_that_a_reader_needs_and_no_column_without_a_valu
 def test_the_report_says_where_contacts_stand_and_what_outputs_do(command, masses):
     masses.write_text(changed(CHAIN, ("[time]", "[[forcing.terms]]\nharmonic = 0\namplitude = 300.0\n[time]")))
     gaps = ("--set", "contact.gap=[1.0, 1e-4]", "--quiet")
-    motion = command("run", masses, "--output", "out", "--set", "analysis.outputs=[1, 2]", *gaps).page
+    motion = command("run", masses, "--output", "out", "--set", "analysis.outputs=[1]", *gaps).page
     assert lacking(motion, "At rest under the static loads 1 of 2 contacts is closed", "The vibration of row 1 is ",
                    'src="outputs.svg"', 'href="outputs.csv"') == []
     came_out = words_of(motion).split("At rest under")[0]

@@ -358,7 +358,7 @@ def test_a_unit_tells_that_a_row_without_a_name_rotates(run, matrix):
     assert record.code == 0, record.errors
     outputs = record.summary["outputs"]
     assert outputs[0]["unit"] == "mrad" if isinstance(outputs, list) else outputs["unit"] == ["mrad"]
-    assert "(mrad)" in (record.folder / "response.svg").read_text()
+    assert "(mrad)" in (record.folder / "outputs.svg").read_text()
 
 
 def test_the_unit_of_a_pair_tells_that_its_rows_rotate(run, matrix):

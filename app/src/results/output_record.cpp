@@ -162,16 +162,6 @@ Summary motion_entries(const std::vector<Output>& outputs, const MeasuredPoint& 
   return entries;
 }
 
-/// The panel of the output that leads, which the first picture of the record has instead of this one.
-std::optional<Panel> take_leading(Figure& figure, const std::vector<Output>& outputs, const Scene& scene) {
-  const std::optional<std::size_t> leading = leading_output(outputs, scene);
-  if (!leading || *leading >= std::min(outputs.size(), most_drawn_outputs)) return std::nullopt;
-  const auto place = figure.panels.begin() + std::ptrdiff_t(*leading);
-  std::optional<Panel> panel = std::move(*place);
-  figure.panels.erase(place);
-  return panel;
-}
-
 }  // namespace
 
 Table with_outputs(const Table& table, const std::vector<Output>& outputs,
@@ -211,8 +201,6 @@ void append_outputs(Record& record, const Scene& scene, const Sweep& sweep, cons
   record.add(quantities::outputs, peaks);
   if (sweep.curve.points.empty()) return;
   Figure figure = outputs_figure(sweep, outputs, contact_places(scene));
-  take_leading(figure, outputs.outputs, scene);
-  if (figure.panels.empty()) return;
   if (scene.plot.log) take_logarithmic_ordinates(figure);
   record.output_pictures.push_back(
       {"outputs", std::move(figure), "the vibration of each output along the curve"});
@@ -259,14 +247,14 @@ void append_outputs(Record& record, const Scene& scene, const RecordedMotion& mo
 
 void lead_with_output(Record& record, const Scene& scene) {
   const std::vector<Output> outputs = outputs_of(scene);
-  if (record.output_pictures.empty()) return;
-  Figure& drawn = record.output_pictures.front().figure;
-  std::optional<Panel> panel = take_leading(drawn, outputs, scene);
-  if (drawn.panels.empty()) record.output_pictures.erase(record.output_pictures.begin());
-  if (!panel) return;
-  const bool named = outputs[*leading_output(outputs, scene)].names_quantity();
-  panel->title = named ? capitalised(panel->title) : "Motion of " + panel->title;
-  record.figure.panels.insert(record.figure.panels.begin(), std::move(*panel));
+  const std::optional<std::size_t> leading = leading_output(outputs, scene);
+  if (!leading || record.output_pictures.empty()) return;
+  const std::vector<Panel>& drawn = record.output_pictures.front().figure.panels;
+  if (*leading >= drawn.size()) return;
+  std::vector<Panel>& panels = record.figure.panels;
+  panels.insert(panels.begin(), drawn[*leading]);
+  std::string& title = panels.front().title;
+  title = outputs[*leading].names_quantity() ? capitalised(title) : "Motion of " + title;
 }
 
 }  // namespace wavebalance::app
