@@ -147,12 +147,15 @@ void notes(report::Artefact& artefact, const app::ModeStudy& study, const app::B
       reached = std::max(reached, point.prescribed_ratio);
       defect = std::max(defect, point.equation_residual);
     }
+  const std::string end = last.accepted()
+                              ? std::string()
+                              : fmt::format(" and not found beyond: {} at {}", to_string(last.status),
+                                            number(last.prescribed_ratio, 3));
   artefact.note(fmt::format(
-      "The printed equations, in all {} coordinates, were followed to energy {} and not found beyond: {} at {}. Their "
-      "motions miss the equation of motion by up to {} of the elastic forces. The dashed line, the root of r of the "
-      "corrected motions, is what the paper's formula would call frequency.",
-      study.model().size(), number(reached, 3), to_string(last.status), number(last.prescribed_ratio, 3),
-      percent(defect, 2)));
+      "The printed equations, in all {} coordinates, were followed to energy {}{}. Their motions miss the equation of "
+      "motion by up to {} of the elastic forces. The dashed line, the root of r of the corrected motions, is what the "
+      "paper's formula would call frequency.",
+      study.model().size(), number(reached, 3), end, percent(defect, 2)));
   artefact.note(fmt::format(
       "The curve, {} points, took {} ms after assembly and reduction in {} s. {} points on internal "
       "resonances, {} unsolved.",

@@ -40,7 +40,8 @@ struct LagrangianModeOptions {
   bool cosine_only = false;  ///< motions that are even in time
   ModeFormulation formulation = ModeFormulation::consistent;
   EigenvalueUpdate eigenvalue = EigenvalueUpdate::simultaneous;
-  double inner_tolerance = 1e-11;  ///< largest entry of the gradient, in units omega_1 = gap = 1
+  /// Largest entry of the gradient, in units omega_1 = gap = 1. A blade's is rounded to more than 1e-11.
+  double inner_tolerance = 1e-10;
   int max_inner_iterations = 60;   ///< Newton steps per outer iteration
   int max_outer_iterations = 60;   ///< updates of the multipliers per energy
   int max_step_halvings = 12;      ///< halvings of failed energy steps, per energy in branch()

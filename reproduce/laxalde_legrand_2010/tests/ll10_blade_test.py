@@ -41,15 +41,15 @@ def test_the_published_formula_falls_short_of_the_backbone(results, ratio_at):
     table = results.table(f"{FIG07}.csv")
     assert table.columns == ["formulation", "energy_ratio", "frequency_ratio", "rayleigh_frequency_ratio"]
     assert table.where(formulation="consistent").numbers("energy_ratio")[-1] > 10.4
-    assert table.where(formulation="published").numbers("energy_ratio")[-1] > 7.0
     published = ratio_at("published", 7.0)
     assert published < 1.13
     assert published == pytest.approx(ratio_at("consistent", 7.0, "rayleigh_frequency_ratio"), abs=0.03)
 
 
-# The printed equations are not followed to the end of the axis.
-def test_the_end_of_the_published_curve_is_marked(results):
-    assert "not found beyond" in results.text(f"{FIG07}.figure.js")
+# With an inner tolerance below rounding they ended at 5 or 9, with the BLAS kernels of the processor.
+def test_the_printed_equations_are_followed_to_the_end_of_the_axis(results):
+    assert results.table(f"{FIG07}.csv").where(formulation="published").numbers("energy_ratio")[-1] == 12.0
+    assert "not found beyond" not in results.text(f"{FIG07}.figure.js")
 
 
 @pytest.mark.parametrize("stem, words, verdict", [(FIG07, "increase of the natural frequency", "agrees"),

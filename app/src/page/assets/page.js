@@ -116,7 +116,8 @@ function keepReadable(image) {
 wavebalance.keepTogether = (box) => {
   const unit = "(?:[GMkm\u00B5np]?(?:Hz|N|J|m|s)(?:/s)?|%)(?![\\p{L}\\d])";
   const quantity = new RegExp(`(-?[\\d.]*\\d(?:\u00B710[\u207B\u2070\u00B9\u00B2\u00B3\u2074-\u2079]+)?(?: \u00B1 [\\d.]+(?: ${unit})?| ${unit}))`, "u");
-  const texts = document.createTreeWalker(box, NodeFilter.SHOW_TEXT), found = [];
+  const outside = ({ parentElement: one }) => one.closest(".math, script, style, pre, svg") ? NodeFilter.FILTER_REJECT : NodeFilter.FILTER_ACCEPT;
+  const texts = document.createTreeWalker(box, NodeFilter.SHOW_TEXT, outside), found = [];
   while (texts.nextNode()) if (quantity.test(texts.currentNode.textContent)) found.push(texts.currentNode);
   for (const text of found)
     text.replaceWith(...text.textContent.split(quantity).map((part, i) => (i % 2 ? wavebalance.element("span", { class: "whole" }, part) : part)));
@@ -124,7 +125,7 @@ wavebalance.keepTogether = (box) => {
 
 document.addEventListener("DOMContentLoaded", () => {
   document.querySelectorAll(".picture img").forEach(keepReadable);
-  document.querySelectorAll("main :is(p, li, dd, td):not(:has(p, li, dd, td, .math))").forEach(wavebalance.keepTogether);
+  document.querySelectorAll("main").forEach(wavebalance.keepTogether);
   const measured = new ResizeObserver((found) => {
     for (const { target } of found) target.style.setProperty("--height", `${target.offsetHeight}px`);
   });
