@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "collocation/collocation_refinement.hpp"
+#include "collocation/exact_solution_parts.hpp"
 #include "flow/closed_period.hpp"
 #include "flow/flow_intervals.hpp"
 #include "flow/flow_start.hpp"
