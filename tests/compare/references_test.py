@@ -13,7 +13,7 @@ TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
 
 
 def compared(scene, budget):
-    """A comparison, and the motion by contact phases, which its errors show to be its reference."""
+    """A comparison, and the exact solution, which its errors show to be its reference."""
     found = wb.compare(scene, pairs="fourier:fourier", budget=budget)
     reference = motion_of(wb.run({**scene, "time": PHASES}, {"analysis.stability": False}))
     plain = {"time.trial": "fourier", "time.weight": "fourier", "analysis.stability": False, "analysis.phases": False}

@@ -109,7 +109,7 @@ class Draw:
         return scene
 
     def choose_time(self, scene, kind):
-        """By bases, by a tolerance or by contact phases; with bases maybe a rigid contact or a tip without mass."""
+        """By bases, by a tolerance or exactly; with bases maybe a rigid contact or a tip without mass."""
         bases, tolerance = scene["time"], {"tolerance": self.integer(1, 1000) / 1e6}
         if kind == "time_stepping":
             del scene["time"]

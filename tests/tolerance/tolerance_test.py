@@ -50,7 +50,7 @@ def to_tolerance(motion, tolerance, changes=()):
 
 
 def reference(motion):
-    """The tip by contact phases, whose own error is below 1e-10; a tip without mass by 511 Fourier functions and eight
+    """The tip of the exact solution, whose own error is below 1e-10; a tip without mass by 511 Fourier functions and eight
     times as many points."""
     if not motion[1].get("structure.massless_tip"):
         return solved(motion, {"time.method": "exact", "time.tolerance": 1e-11}).response["displacement_m"]
