@@ -61,7 +61,7 @@ def accurate(points: list[dict[str, str]], error: float, /, **wanted: str) -> tu
 
 
 def phases_lead_below(points: list[dict[str, str]], case: str) -> float:
-    """The least error at which a pair of bases is as fast as contact phases: below it these lead."""
+    """The least error at which a pair of bases is as fast as the exact solution: below it these lead."""
     def steps(method: str) -> list[tuple[float, float]]:
         found = [(float(row["error"]), float(row["seconds"])) for row in points
                  if row["case"] == case and row["method"] == method and row["converged"] == "true"]
@@ -160,7 +160,7 @@ def measured(results: pathlib.Path) -> dict[str, float | str]:
         values[f"point_{case}_ms"] = times[f"point/{point}"]
         values[f"dense_{case}_ms"] = times[f"dense_point/{point}"]
         for digits in ("8", "12"):
-            values[f"phases_{case}_{digits}_ms"] = times[f"phases/case:{case}/digits:{digits}"]
+            values[f"phases_{case}_{digits}_ms"] = times[f"exact/case:{case}/digits:{digits}"]
     for case in ("1", "2"):
         for functions, samples in (("255", "1024"), ("16383", "65536")):
             values[f"point_{functions}_{case}_ms"] = times[f"point/case:{case}/functions:{functions}/points:{samples}"]

@@ -88,7 +88,7 @@ std::vector<Point> collocation_points(const Study& study, const std::vector<doub
   app::ExactStudyOptions options;
   options.tolerances = tolerances;
   options.first_functions = options.largest_functions = functions;
-  return app::phase_study(study.measured, study.reference, options);
+  return app::exact_study(study.measured, study.reference, options);
 }
 
 }  // namespace wavebalance::bench

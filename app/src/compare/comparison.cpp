@@ -95,7 +95,7 @@ class ResponseComparison {
     study.observer = [this, end](const solvers::Progress& progress) {
       return goes_on(progress.phase) && clock_.seconds() < end;
     };
-    return phase_study(measured_, found_.reference, study);
+    return exact_study(measured_, found_.reference, study);
   }
 
   /// After the admissible pairs: the exact solution, or why it was not computed.

@@ -13,7 +13,7 @@ struct CollocationLevel {
 };
 
 // The last one has other panels than the one before, so that their distance is an error.
-constexpr std::array<CollocationLevel, 4> phase_levels{{{1e-6, 8}, {1e-9, 8}, {1e-12, 12}, {1e-12, 16}}};
+constexpr std::array<CollocationLevel, 4> exact_levels{{{1e-6, 8}, {1e-9, 8}, {1e-12, 12}, {1e-12, 16}}};
 constexpr double coarsest_reference = 1e-6;  // with a larger error a refined balance is as good
 constexpr double least_error = 1e-14;        // rounding
 // With a single motion, whose error estimate may be too small.
@@ -95,11 +95,11 @@ solvers::Motion sampled(const solvers::ExactSolution& motion, int points) {
   return samples;
 }
 
-ExactReference phase_reference(Guide& guide, const solvers::Observer& observer) {
+ExactReference exact_reference(Guide& guide, const solvers::Observer& observer) {
   ExactReference best;
   best.error = coarsest_reference;
   int levels = 0;
-  for (const auto& [tolerance, nodes] : phase_levels) {
+  for (const auto& [tolerance, nodes] : exact_levels) {
     const auto found = guide.problem.exact_near(
         guide.response,
         {.tolerance = tolerance, .nodes = nodes, .max_panels = most_divided, .observer = observer});

@@ -43,7 +43,7 @@ struct ExactReference {
 };
 
 /// Exact solutions to tolerances that fall to 1e-12, or as far as the observer lets them.
-ExactReference phase_reference(Guide& guide, const solvers::Observer& observer);
+ExactReference exact_reference(Guide& guide, const solvers::Observer& observer);
 
 /// Why the exact solution is not available for a structure; empty if it is.
 std::string exact_refusal(const StructureModel& model);

@@ -101,7 +101,7 @@ class ExactStudy {
 
 }  // namespace
 
-std::vector<SolvePoint> phase_study(const MeasuredScene& measured, const Reference& reference,
+std::vector<SolvePoint> exact_study(const MeasuredScene& measured, const Reference& reference,
                                     const ExactStudyOptions& options) {
   return ExactStudy(measured, reference, options).study();
 }

@@ -190,7 +190,7 @@ class ReferenceSearch {
   /// In a part of the time that is left for them.
   std::optional<Reference> exact_from(Guide& start, double part) {
     allowed_ = clock_.seconds() + part * std::max(0.0, exact_share * seconds_ - clock_.seconds());
-    ExactReference found = phase_reference(start, observer_);
+    ExactReference found = exact_reference(start, observer_);
     const bool known = found.missing_because.empty();
     if (known && is_of_guide(found.contacts)) return by_exact(std::move(found), start);
     without_exact_ = known ? phrase_of(solvers::ExactStatus::not_found) : found.missing_because;

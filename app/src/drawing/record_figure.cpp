@@ -168,7 +168,7 @@ void label_once(Panel& panel, std::size_t first) {
   panel.series.erase(panel.series.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
-/// What is drawn of the main curve in addition to its largest displacements.
+/// A curve below the largest displacements.
 struct Second {
   std::string label;
   PointValue value;
@@ -200,9 +200,9 @@ void add_displacements_along(Figure& figure, const Scene& scene, const Sweep& sw
   const std::vector<double> values = displacements_of(lines);
   const double largest = *std::ranges::max_element(values);
   const double top = shown_top(sweep, values);
-  const Second second = figure.panels.empty()
-                            ? Second{"rms including mean", &solvers::SweepPoint::rms_displacement}
-                            : Second{"least", &solvers::SweepPoint::min_displacement};
+  const bool below = !figure.panels.empty();
+  const Second second = below ? Second{"least", &solvers::SweepPoint::min_displacement}
+                              : Second{"rms including mean", &solvers::SweepPoint::rms_displacement};
   const Scale scale = axis_scale(top);
   const std::string unit = displacement_unit(scene);
   Panel& panel = figure.add_panel("Displacement of the contacts", sweep_axis(sweep).label(),
@@ -217,7 +217,7 @@ void add_displacements_along(Figure& figure, const Scene& scene, const Sweep& sw
   draw_special_points(panel, marks);
   if (top < largest) {
     panel.y.upper = 1.1 * scale.factor * top;
-    if (second.label == "least") panel.y.lower = -*panel.y.upper;
+    if (below) panel.y.lower = -*panel.y.upper;
   }
   if (const double gap = common_gap(scene); !std::isnan(gap))
     panel.mark_level(scale.factor * gap, "gap", quantity(gap, unit));

@@ -38,7 +38,7 @@ std::string folded_table(const Summary& summary, const std::string& name, const 
   return table == nullptr ? "" : folded(title, table_html(shown_rows(*table)));
 }
 
-/// What was measured of an aperiodic motion, in units with prefixes.
+/// The statistics of an aperiodic motion, in units with prefixes.
 std::string statistics_of_record(const Summary& summary) {
   const Table* table = table_of(summary, "statistics");
   if (table == nullptr) return "";

@@ -82,7 +82,9 @@ int affordable_periods(const Response& found, double max_operations) {
 Record record_in_time(Scene scene, const StructureModel& model, const AnalysisOptions& how,
                       double max_operations) {
   ResponseOptions options = response_options(scene, how.observer);
-  options.max_operations = max_operations;
+  // Leaves operations for the least record.
+  const double waited = scene.analysis.max_periods;
+  options.max_operations = max_operations * waited / (waited + least_recorded_periods);
   Response response = flow_response(scene, model, options);
   const int affordable = response.moves ? affordable_periods(response, max_operations) : 0;
   scene.analysis.recorded_periods = std::min(scene.analysis.recorded_periods, affordable);

@@ -164,21 +164,12 @@ void append_structure_points(Record& record, const Sweep& sweep) {
                      none = count_of(points, StructurePointStatus::none),
                      left = count_of(points, StructurePointStatus::not_known) +
                             count_of(points, StructurePointStatus::not_sought);
-  std::vector<std::string> errors;
-  if (repeated > 0)
-    errors.push_back(fmt::format("{} repeat{} another one", repeated, repeated == 1 ? "s" : ""));
-  if (none > 0)
-    errors.push_back(
-        fmt::format("{} {} no exact point of the same type nearby", none, none == 1 ? "has" : "have"));
-  if (!errors.empty())
-    warn(record, "The curve has {} bifurcation or grazing points; {} discretisation artefact{}: {}. {}",
-         points.of_balance.size(), repeated + none == 1 ? "1 is a" : fmt::format("{} are", repeated + none),
-         repeated + none == 1 ? "" : "s", fmt::join(errors, " and "),
-         points.events.empty()
-             ? std::string("No exact point was found.")
-             : "structure_special_points lists " +
-                   (points.events.size() == 1 ? std::string("the exact one.")
-                                              : fmt::format("the {} exact ones.", points.events.size())));
+  if (repeated + none > 0)
+    warn(
+        record,
+        "Bifurcation or grazing points of the curve: {}; discretisation artefacts among them: {} ({} repeated, {} "
+        "without an exact point of the same type nearby). Exact points in structure_special_points: {}.",
+        points.of_balance.size(), repeated + none, repeated, none, points.events.size());
   if (left == 0) return;
   warn(record,
        "For {} of {} bifurcation or grazing points of the curve no exact one was found or "

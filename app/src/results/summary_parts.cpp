@@ -175,7 +175,8 @@ Table intervals_table(const Scene& scene, const solvers::ExactSolution& motion) 
   };
   if (motion.friction.empty()) {
     for (const solvers::ForceInterval& interval : motion.intervals)
-      if (places.at(std::size_t(interval.contact)).place == 0) add(interval.contact, "", interval.begin, interval.end);
+      if (places.at(std::size_t(interval.contact)).place == 0)
+        add(interval.contact, "", interval.begin, interval.end);
     return rows.empty() ? Table({"contact", "begin", "end"}) : table_of(rows);
   }
   for (const solvers::FrictionAlong& contact : motion.friction)

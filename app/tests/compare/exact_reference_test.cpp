@@ -25,12 +25,12 @@ TEST(ExactReference, IsCheckedByASecondMotionWhereverItIsStopped) {
   const StructureModel model = make_model(scene);
   std::optional<Guide> guide = refined_guide(scene, model, 1e-3, {});
   ASSERT_TRUE(guide);
-  const ExactReference whole = phase_reference(*guide, {});
+  const ExactReference whole = exact_reference(*guide, {});
   ASSERT_EQ(whole.missing_because, "");
   int known = 0, unknown = 0;
   for (int steps = 0; steps < 40; steps += 2) {
     int left = steps;
-    const ExactReference found = phase_reference(*guide, [&left](const Progress&) { return left-- > 0; });
+    const ExactReference found = exact_reference(*guide, [&left](const Progress&) { return left-- > 0; });
     if (!found.missing_because.empty()) {
       ++unknown;
       continue;
@@ -57,7 +57,7 @@ TEST(ExactStudy, FindsTheMotionFromABalanceOfThreeFunctions) {
   options.solve = {.budget = 0.0, .least = 1, .max_seconds = 0.0};
   options.tolerances = {1e-8};
   options.first_functions = 3;
-  const std::vector<SolvePoint> points = phase_study(measured_scene(scene, reference), reference, options);
+  const std::vector<SolvePoint> points = exact_study(measured_scene(scene, reference), reference, options);
   ASSERT_GE(points.size(), 2u);  // how many lie between depends on rounding
   EXPECT_EQ(points.front().functions, 3);
   EXPECT_TRUE(points.front().converged);

@@ -42,9 +42,9 @@ struct LagrangianModeOptions {
   EigenvalueUpdate eigenvalue = EigenvalueUpdate::simultaneous;
   /// Largest entry of the gradient, in units omega_1 = gap = 1. A blade's is rounded to more than 1e-11.
   double inner_tolerance = 1e-10;
-  int max_inner_iterations = 60;   ///< Newton steps per outer iteration
-  int max_outer_iterations = 60;   ///< updates of the multipliers per energy
-  int max_step_halvings = 12;      ///< halvings of failed energy steps, per energy in branch()
+  int max_inner_iterations = 60;  ///< Newton steps per outer iteration
+  int max_outer_iterations = 60;  ///< updates of the multipliers per energy
+  int max_step_halvings = 12;     ///< halvings of failed energy steps, per energy in branch()
 
   /// Throws std::invalid_argument for a number out of its range, whatever the model.
   void validate() const;

@@ -23,7 +23,7 @@ double growth(const PathPoint& at, const Interval& interval);
 /// same segment. Forces that the other layout resolves are then resolved too.
 Layout with_cuts_of(const Layout& other, Layout layout);
 
-/// The contact intervals without the gaps that vanish, with the cuts of all.
+/// The layout without contact intervals and gaps that vanish, with the cuts of all.
 Layout without(Layout layout, std::vector<Interval> intervals);
 
 /// A place where a contact may graze.

@@ -207,9 +207,8 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
   FlowEvent event{.time = time_, .contact = int(c), .from = state};
   std::optional<Dual> impulse;
   detail::Signals after = signals;
-  Index row = 0;
   if (exit.impulse) {
-    row = contacts_.row(c) + exit.impulse->row;
+    const int row = event.row = int(contacts_.row(c) + exit.impulse->row);
     const Dual& speed = local.signals().velocity[std::size_t(exit.impulse->row)];
     double& fastest = fastest_[std::size_t(c)];
     fastest = std::max(fastest, speed.value);
@@ -220,7 +219,6 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
     event.impulse = impulse->value;
     event.speed = speed.value;
     event.after = -rebound * speed.value;
-    event.row = int(row);
     event.displacement = signals[0](row, 0);
     const Eigen::VectorXcd left = poles_.inputs().col(row) * impulse->value;
     states_ -= left;
@@ -240,7 +238,7 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
   if (!variation_.empty()) {
     const Dual guard = law.guard(state, hit.guard.exit, local.signals());
     const bool forced = guard.value < -left_over * clear_of({c, hit.guard.exit});
-    variation_.through(contacts_, poles_, {c, guard, memory, impulse, row, forced}, signals, before);
+    variation_.through(contacts_, poles_, {c, guard, memory, impulse, event.row, forced}, signals, before);
   }
   for (Index m = 0; m < law.memories(); ++m)
     now_.memory[std::size_t(contacts_.memory_begin(c) + m)] =

@@ -57,7 +57,7 @@ struct Response {
   double residual =
       0.0;  ///< relative; of the equations, or the difference of the last two periods (time stepping)
   int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
-  int unknowns = 0;    ///< contact displacements in time; with exact = true the forces at nodes and instants;
+  int unknowns = 0;    ///< contact displacements in time; of exact solutions forces at nodes and instants;
                        ///< states of the integrator (time stepping)
   int attractor_periods = -1;  ///< solvers::AttractorMotion::attractor_periods; -1 where no attractor was
                                ///< computed
@@ -135,8 +135,8 @@ struct ResponseOptions {
   /// For weighted_residual_response() without time.tolerance: if the functions represent no motion, the
   /// exact motion that time integration converges to is the response. Response::solved_by names it.
   bool exact_instead = false;
-  double max_operations =
-      std::numeric_limits<double>::infinity();  ///< of time stepping, its periods and record
+  /// Estimated, of the periods of time stepping.
+  double max_operations = std::numeric_limits<double>::infinity();
   Observer observer{};
 };
 

@@ -188,7 +188,7 @@ struct SweepComparison {
 /// Follows the curve of the scene's sweep in each pair with 8, 16, ... functions, a pair of Fourier functions
 /// with one less, and the points per function of the scene, to largest_functions or 16384 or until the budget
 /// is used. Before them, for a fifth of the budget at most, the curve of the structure itself, where exact
-/// solutions of contact follow it from one end to the other. Pairs are followed together, one in each thread;
+/// solutions follow it from one end to the other. Pairs are followed together, one in each thread;
 /// a curve and its digits do not depend on the others. The observer is called by one thread at a time. Throws
 /// as check_comparison().
 SweepComparison compare_sweeps(const Scene& scene, const ComparisonOptions& options,

@@ -269,7 +269,7 @@ struct ExactStudyOptions {
 /// of 31, 63, ... functions until the time rises; those from which the exact solutions are not found are
 /// among the rows. Then come the other tolerances. Errors are those against the reference, which has more
 /// nodes, and no smaller than its own.
-std::vector<SolvePoint> phase_study(const MeasuredScene& measured, const Reference& reference,
+std::vector<SolvePoint> exact_study(const MeasuredScene& measured, const Reference& reference,
                                     const ExactStudyOptions& options);
 
 }  // namespace wavebalance::app
