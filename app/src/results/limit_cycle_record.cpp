@@ -36,7 +36,7 @@ Record limit_cycle_record(const Scene& scene, const StructureModel& model, const
   if (record.interrupted) record.status = "interrupted";
   if (!how.start.source.empty()) record.add(quantities::start_from, how.start.source);
   if (solved.response.moves)
-    record.cycle = {.contacts = solved.response.contacts, .frequency = solved.frequency};
+    record.cycle = {.source = {}, .contacts = solved.response.contacts, .frequency = solved.frequency};
   record.add("period_s", 1.0 / solved.frequency);
   record.add("starts", solved.found.starts);
   record.add("starts_at_rest", solved.found.came_to_rest);

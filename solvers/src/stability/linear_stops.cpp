@@ -35,6 +35,24 @@ Eigen::MatrixXcd weights_of(const Eigen::MatrixXd& rows, const RealStates& state
   return result;
 }
 
+// z with s z = L z + values, L the block diagonal matrix of the exponents.
+Eigen::VectorXcd divided(const LinearFlow& flow, std::complex<double> s, Eigen::VectorXcd values) {
+  for (std::size_t l = 0; l < std::size_t(flow.exponents.size()); ++l) {
+    const Index i = flow.modes.begin(l);
+    const std::complex<double> apart = s - flow.exponents[Index(l)].real();
+    if (!flow.modes.is_pair(l)) {
+      values[i] /= apart;
+      continue;
+    }
+    const double turn = flow.exponents[Index(l)].imag();
+    const std::complex<double> re = values[i], im = values[i + 1],
+                               scale = 1.0 / (apart * apart + turn * turn);
+    values[i] = scale * (apart * re - turn * im);
+    values[i + 1] = scale * (turn * re + apart * im);
+  }
+  return values;
+}
+
 }  // namespace
 
 std::optional<LinearStops> linear_stops(const ContactLaws& laws, int contacts) {
@@ -48,10 +66,8 @@ std::optional<LinearStops> linear_stops(const ContactLaws& laws, int contacts) {
   return stops;
 }
 
-void LinearFlow::advance(double seconds, Eigen::MatrixXd& states) const {
-  Eigen::MatrixXd modal = product(left, states);
+void LinearFlow::advance(double seconds, Eigen::MatrixXd& modal) const {
   modes.multiply((seconds * exponents.array()).exp().matrix(), modal);
-  states = product(right, modal);
 }
 
 std::optional<HeldByStops> HeldByStops::of(const ContactDynamics& dynamics, const LinearStops& stops,
@@ -71,24 +87,26 @@ std::optional<HeldByStops> HeldByStops::of(const ContactDynamics& dynamics, cons
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(contacts, contacts);
   force(closed, closed) = springs;
   const Eigen::MatrixXd struck = poles.real_of(inputs_of(dynamics));
-  held.inputs_ = product(struck, force);
-  held.matrix_ = poles.diagonal(exponents) - product(held.inputs_, held.outputs_);
+  const Eigen::MatrixXd inputs = product(struck, force);
+  const Eigen::MatrixXd matrix = poles.diagonal(exponents) - product(inputs, held.outputs_);
   held.direct_ = Eigen::MatrixXd::Identity(contacts, contacts) - product(dynamics.constant(), force);
   held.outputs_ = product(held.direct_, held.outputs_);
-  return held.set_modes() ? std::optional(std::move(held)) : std::nullopt;
+  if (!held.set_modes(matrix)) return std::nullopt;
+  held.modal_inputs_ = product(held.free_.left, inputs);
+  return held;
 }
 
-bool HeldByStops::set_modes() {
+bool HeldByStops::set_modes(const Eigen::MatrixXd& matrix) {
   constexpr double largest_condition = 1e12;
-  const auto eigen = general_eigen(matrix_);
+  const auto eigen = general_eigen(matrix);
   if (!eigen) return false;
   std::vector<Index> kept;
   for (Index i = 0; i < eigen->values.size(); ++i)
     if (eigen->values[i].imag() >= 0.0) kept.push_back(i);
   free_.exponents = eigen->values(kept);
   free_.modes = RealStates(free_.exponents);
-  if (free_.modes.size() != matrix_.rows()) return false;
-  free_.right.resize(matrix_.rows(), matrix_.rows());
+  if (free_.modes.size() != matrix.rows()) return false;
+  free_.right.resize(matrix.rows(), matrix.rows());
   for (std::size_t l = 0; l < kept.size(); ++l) {
     const Index at = free_.modes.begin(l);
     free_.right.col(at) = eigen->vectors.col(kept[l]).real();
@@ -101,7 +119,7 @@ bool HeldByStops::set_modes() {
 }
 
 LinearFlow HeldByStops::under(const Waves& waves) const {
-  const Index states = matrix_.rows(), poles = free_.exponents.size(), count = Index(waves.orders.size());
+  const Index states = free_.left.rows(), poles = free_.exponents.size(), count = Index(waves.orders.size());
   LinearFlow flow;
   flow.exponents.resize(poles + count);
   flow.exponents.head(poles) = free_.exponents;
@@ -109,26 +127,23 @@ LinearFlow HeldByStops::under(const Waves& waves) const {
     flow.exponents[poles + k] = {0.0, 2.0 * std::numbers::pi * waves.orders[std::size_t(k)] / waves.period};
   flow.modes = RealStates(flow.exponents);
   const Index size = flow.modes.size(), of_waves = size - states;
-  Eigen::MatrixXd forced = Eigen::MatrixXd::Zero(states, of_waves), e(direct_.rows(), of_waves);
+  Eigen::MatrixXd modal = Eigen::MatrixXd::Zero(states, of_waves), e(direct_.rows(), of_waves);
   for (Index k = 0; k < count; ++k) {
-    Eigen::MatrixXcd resolvent = -matrix_.cast<std::complex<double>>();
-    resolvent.diagonal().array() += flow.exponents[poles + k];
     const Eigen::VectorXcd wave = waves.amplitudes.col(k),
-                           motion =
-                               -Lu<std::complex<double>>(resolvent).solve(Eigen::VectorXcd(inputs_ * wave));
+                           motion = -divided(free_, flow.exponents[poles + k], modal_inputs_ * wave);
     const Index at = flow.modes.begin(std::size_t(poles + k)) - states;
-    forced.col(at) = motion.real();
+    modal.col(at) = motion.real();
     e.col(at) = wave.real();
     if (!flow.modes.is_pair(std::size_t(poles + k))) continue;
-    forced.col(at + 1) = -motion.imag();
+    modal.col(at + 1) = -motion.imag();
     e.col(at + 1) = -wave.imag();
   }
   flow.right = Eigen::MatrixXd::Identity(size, size);
   flow.right.topLeftCorner(states, states) = free_.right;
-  flow.right.topRightCorner(states, of_waves) = forced;
+  flow.right.topRightCorner(states, of_waves) = product(free_.right, modal);
   flow.left = Eigen::MatrixXd::Identity(size, size);
   flow.left.topLeftCorner(states, states) = free_.left;
-  flow.left.topRightCorner(states, of_waves) = -product(free_.left, forced);
+  flow.left.topRightCorner(states, of_waves) = -modal;
   Eigen::MatrixXd outputs(direct_.rows(), size);
   outputs << outputs_, product(direct_, e);
   flow.outputs = weights_of(product(outputs, flow.right), flow.modes, flow.exponents.size());

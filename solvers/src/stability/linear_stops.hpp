@@ -29,8 +29,8 @@ struct LinearFlow {
   Eigen::MatrixXd right, left;
   Eigen::MatrixXcd outputs = {};  ///< w = Re(outputs z), rows
 
-  /// Takes the states of all columns on by a time, s.
-  void advance(double seconds, Eigen::MatrixXd& states) const;
+  /// Takes z of all columns on by a time, s.
+  void advance(double seconds, Eigen::MatrixXd& modal) const;
 };
 
 /// The structure while some of its stops are closed, in the S real states a of its poles:
@@ -43,14 +43,15 @@ class HeldByStops {
                                        const std::vector<int>& closed);
 
   /// The same with the waves among the states, y = (a, Re and Im of exp(2 pi i orders t / period)) without
-  /// the imaginary part for the order 0, and w as outputs. O(S^3) for each wave.
+  /// the imaginary part for the order 0, and w as outputs. O(S^2) for each wave or contact.
   LinearFlow under(const Waves& waves) const;
 
  private:
-  bool set_modes();
+  bool set_modes(const Eigen::MatrixXd& matrix);
 
-  Eigen::MatrixXd matrix_, inputs_, outputs_, direct_;  // S x S, S x C, C x S, C x C
-  LinearFlow free_;                                     // without e
+  Eigen::MatrixXd outputs_, direct_;  // C x S, C x C
+  Eigen::MatrixXd modal_inputs_;      // left inputs, S x C
+  LinearFlow free_;                   // without e
 };
 
 }  // namespace wavebalance::solvers::detail

@@ -109,17 +109,28 @@ class StopSearch {
   StopSearch(HeldFinder held, const LinearStops& stops, Waves waves)
       : held_(std::move(held)), stops_(stops), waves_(std::move(waves)) {}
 
-  // The map of the motion near a pattern, whose flights are then known; nothing where none is found.
+  // The map of the motion near a pattern, whose flights are then known; nothing where none is found. A map
+  // costs much more than following the motion. It is kept while each step takes three quarters of the defect
+  // away.
   std::optional<Eigen::MatrixXd> near(StopPattern pattern) {
-    constexpr int most = 30;
-    constexpr double settled = 1e-9;
-    for (int n = 0; n < most; ++n) {
-      std::optional<Eigen::MatrixXd> map = close(pattern);
-      if (!map) return std::nullopt;
-      const std::optional<StopPattern> next = follow(pattern.closed);
+    constexpr int most = 40;
+    constexpr double settled = 1e-9, most_left = 0.25;
+    double before = std::numeric_limits<double>::infinity();
+    std::optional<Eigen::MatrixXd> map = close(pattern);
+    bool current = true;  // whether the map is that of the pattern
+    for (int n = 0; map && n < most; ++n) {
+      std::optional<StopPattern> next = follow(pattern.closed);
       if (!next) return std::nullopt;
-      if (is_same(*next, pattern, settled * waves_.period)) return map;
-      pattern = *next;
+      const bool same = is_same(*next, pattern, settled * waves_.period);
+      if (same && current) return map;
+      pattern = *std::move(next);
+      const Eigen::VectorXd defect = (end_ - state_).head(map->rows());
+      current = same || !(defect.norm() <= most_left * before);
+      before = defect.norm();
+      if (current)
+        map = close(pattern);
+      else
+        state_.head(map->rows()) += fixed_.solve(defect);
     }
     return std::nullopt;
   }
@@ -143,25 +154,35 @@ class StopSearch {
   // Sets the state at the origin of the motion that is periodic with a pattern, and returns its map.
   std::optional<Eigen::MatrixXd> close(const StopPattern& pattern) {
     std::vector<int> closed = pattern.closed;
-    Eigen::MatrixXd passed;
+    const LinearFlow* here = flow(closed);
+    if (!here) return std::nullopt;
+    Eigen::MatrixXd passed = here->left;  // as modal states
     double time = 0.0;
-    for (std::size_t i = 0; i <= pattern.changes.size(); ++i) {
-      const LinearFlow* here = flow(closed);
-      if (!here) return std::nullopt;
-      const double end = i < pattern.changes.size() ? pattern.changes[i].time : waves_.period;
-      if (i == 0) passed = Eigen::MatrixXd::Identity(here->right.rows(), here->right.rows());
-      here->advance(end - time, passed);
-      time = end;
-      if (i < pattern.changes.size()) toggle(closed, pattern.changes[i].stop);
+    for (const StopChange& change : pattern.changes) {
+      here->advance(change.time - time, passed);
+      time = change.time;
+      toggle(closed, change.stop);
+      const LinearFlow* next = flow(closed);
+      if (!next) return std::nullopt;
+      passed = detail::product(between(*here, *next), passed);
+      here = next;
     }
+    here->advance(waves_.period - time, passed);
+    passed = detail::product(here->right, passed);
     const Eigen::VectorXd waves = wave_states_at_origin();
     const Index states = passed.rows() - waves.size();
     Eigen::MatrixXd map = passed.topLeftCorner(states, states);
+    fixed_.compute(Eigen::MatrixXd::Identity(states, states) - map);
     state_.resize(passed.rows());
-    state_ << detail::Lu<double>(Eigen::MatrixXd::Identity(states, states) - map)
-                  .solve(Eigen::VectorXd(passed.topRightCorner(states, waves.size()) * waves)),
-        waves;
+    state_ << fixed_.solve(Eigen::VectorXd(passed.topRightCorner(states, waves.size()) * waves)), waves;
     return state_.allFinite() ? std::optional(std::move(map)) : std::nullopt;
+  }
+
+  // From the modal states of one flow to those of the next.
+  const Eigen::MatrixXd& between(const LinearFlow& one, const LinearFlow& next) {
+    const auto [at, made] = between_.try_emplace({&one, &next});
+    if (made) at->second = detail::product(next.left, one.right);
+    return at->second;
   }
 
   Eigen::VectorXd wave_states_at_origin() const {
@@ -186,11 +207,14 @@ class StopSearch {
       flights_.push_back({time, here, here->modes.complex_of(here->left * state)});
       const std::optional<StopChange> change = next_change(flights_.back(), closed);
       if (!change) return std::nullopt;
-      if (change->stop < 0) return pattern;
-      pattern.changes.push_back(*change);
-      toggle(closed, change->stop);
       time = change->time;
       state = here->right * here->modes.real_of(flights_.back().modal_at(time).matrix());
+      if (change->stop < 0) {
+        end_ = std::move(state);
+        return pattern;
+      }
+      pattern.changes.push_back(*change);
+      toggle(closed, change->stop);
     }
     return std::nullopt;
   }
@@ -242,7 +266,9 @@ class StopSearch {
   const LinearStops& stops_;
   Waves waves_;
   std::map<std::vector<int>, LinearFlow> flows_;
-  Eigen::VectorXd state_;  // at the origin, with the waves
+  std::map<std::pair<const LinearFlow*, const LinearFlow*>, Eigen::MatrixXd> between_;
+  Eigen::VectorXd state_, end_;  // at the origin and a period later, with the waves
+  detail::Lu<double> fixed_;     // of 1 - the last map
   std::vector<StopFlight> flights_;
 };
 
