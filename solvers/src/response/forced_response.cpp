@@ -43,23 +43,23 @@ struct Candidate {
   Eigen::VectorXd series_flexibility;  // defines its form, see ContactOperator
   Eigen::VectorXd unknown;             // m, samples() values
   Strategy strategy = Strategy::none;
-  int iterations = 0;       // Newton iterations of all attempts so far
-  double operations = 0.0;  // of the attempt, as ContactSystem counts them
+  // Of all attempts so far; operations as ContactSystem counts them.
+  int iterations = 0;
+  double operations = 0.0;
 
   bool converged() const { return newton.status == SolveStatus::converged; }
   bool ended() const { return converged() || newton.status == SolveStatus::cancelled; }
 };
 
-/// The better of two candidates, with the sum of their iterations.
+/// The better of two candidates, with the sum of their effort.
 Candidate better(Candidate before, Candidate next) {
-  next.iterations += before.iterations;
+  before.iterations = next.iterations += before.iterations;
+  before.operations = next.operations += before.operations;
   if (next.newton.status == SolveStatus::cancelled && next.unknown.size() == 0) {
     before.newton.status = SolveStatus::cancelled;
-    before.iterations = next.iterations;
     return before;
   }
   if (next.ended() || next.newton.residual < before.newton.residual) return next;
-  before.iterations = next.iterations;
   if (next.newton.status == SolveStatus::effort_limit) before.newton.status = next.newton.status;
   return before;
 }
@@ -75,6 +75,12 @@ struct Task {
     return {problem, laws, series_flexibility};
   }
 };
+
+/// Whether the attempts so far exclude a further one. No random structure was solved by one after as much.
+bool is_spent(const Task& task, const Candidate& best) {
+  constexpr double runs = 3.0;  // of Newton's method
+  return best.operations > runs * task.fallback_operations;
+}
 
 Eigen::VectorXd unknown_of(const Start& start, const Eigen::VectorXd& series_flexibility) {
   return detail::unknown_in_form(start.displacement, start.force, series_flexibility);
@@ -96,7 +102,7 @@ Candidate improve(const Task& task, ContactSystem& system, Candidate candidate, 
   if (strategy == Strategy::sticking) newton_options.memory = 10;
   const double before = system.operations();
   candidate.newton = newton(system, candidate.unknown, newton_options);
-  candidate.operations = system.operations() - before;
+  candidate.operations += system.operations() - before;
   candidate.iterations += candidate.newton.iterations;
   if (candidate.converged()) candidate.strategy = strategy;
   return candidate;
@@ -129,6 +135,7 @@ Candidate try_homotopy(const Task& task, const Eigen::VectorXd& series_flexibili
   ResidualHomotopyOptions homotopy = task.options.continuation;
   homotopy.observer = task.options.observer;
   const HomotopyStatus status = residual_homotopy(system, candidate.unknown, homotopy);
+  candidate.operations = system.operations();
   if (status == HomotopyStatus::arrived) return improve(task, system, std::move(candidate), strategy);
   if (status == HomotopyStatus::cancelled) candidate.newton.status = SolveStatus::cancelled;
   return candidate;
@@ -236,9 +243,9 @@ Candidate solve_attractor(const Task& task, const Eigen::VectorXd& form, const S
   if (motion.cancelled) best.newton.status = SolveStatus::cancelled;
   if (best.ended()) return best;
   if (!motion.integrated() || !motion.returns.empty())
-    return better(std::move(best), try_residual(task, form, first));
+    return is_spent(task, best) ? best : better(std::move(best), try_residual(task, form, first));
   improve(motion.last, motion.start, Strategy::settling);
-  if (best.ended()) return best;
+  if (best.ended() || is_spent(task, best)) return best;
   const Start last = start_of(task, motion.last, motion.start - task.problem.pair().first_sample());
   return better(std::move(best), try_residual(task, form, last));
 }
@@ -317,7 +324,7 @@ Candidate solve(const Task& at_first, const Start& first, bool guessed, Attracto
     if (best.ended()) return best;
   }
   best = solve_attractor(task, form, first, std::move(best), settled);
-  if (best.ended() || !task.laws.unilateral() || task.problem.is_free()) return best;
+  if (best.ended() || is_spent(task, best) || !task.laws.unilateral() || task.problem.is_free()) return best;
   return better(std::move(best), solve_from_rest(task, form, settled));
 }
 

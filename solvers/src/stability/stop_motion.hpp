@@ -30,7 +30,7 @@ class StopMotions {
   /// The multipliers of the exact motion near a response, by falling modulus. Modes beyond the highest
   /// harmonic, or 2, 4, ... times as high, are springs at the contacts, until twice as many do not change
   /// the side of the circle of any multiplier. Nothing where twice in turn no motion is found. O(instants
-  /// S^3) for each of about five steps, S states.
+  /// S^3) for a map, of which a motion needs about two, and O(instants S^2) for each step, S states.
   std::optional<Eigen::VectorXcd> multipliers_beside(const CondensedProblem& problem,
                                                      const PeriodicResponse& response,
                                                      const PeriodicStiffness& stiffness,
