@@ -43,6 +43,15 @@ def test_contacts_that_press_against_each_other_are_known_at_rest(more):
     assert rest["contact_force_N"][0] == pytest.approx(PRESSED - SPRING * moved, rel=1e-12)
 
 
+def test_contacts_that_always_stick_are_named_by_ranges():
+    scene = grid(6)
+    for i, pair in enumerate(scene["contact"]["pairs"]):
+        del pair["name"]
+        pair["friction"] = 0.05 if i == 8 else 30.0
+    (warning,) = [text for text in wb.run(scene).warnings if "neither" in text]
+    assert warning.startswith("Contacts 1 to 8, 10 to 12 neither slip nor open")
+
+
 def test_work_and_wear_are_drawn_of_the_contacts_where_they_are_largest(tmp_path):
     scene = grid(5, type="frequency_sweep", frequency_from=24.0, frequency_to=36.0, stability=False, outputs=[10])
     record = wb.run(scene, output=tmp_path)

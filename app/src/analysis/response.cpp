@@ -113,7 +113,7 @@ void require_digits(Response& result) {
 }  // namespace
 
 double most_operations_of_exact(int contacts) {
-  constexpr double of_few = 4e10, few_contacts = 16.0, most = 7.0;
+  constexpr double of_few = 4e10, few_contacts = 16.0, most = 2.0;
   return of_few * std::clamp(contacts / few_contacts, 1.0, most);
 }
 

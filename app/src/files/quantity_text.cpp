@@ -87,6 +87,18 @@ std::string short_numbers(std::span<const double> values, int digits) {
   return text;
 }
 
+std::string number_ranges(std::span<const int> numbers) {
+  std::string text;
+  for (std::size_t first = 0, next = 0; first < numbers.size(); first = next) {
+    while (next < numbers.size() && numbers[next] - numbers[first] == int(next - first)) ++next;
+    const std::string begin = std::to_string(numbers[first]), end = std::to_string(numbers[next - 1]);
+    const bool few = next - first < 3;
+    text += text.empty() ? "" : ", ";
+    text += next - first == 1 ? begin : begin + (few ? ", " : " to ") + end;
+  }
+  return text;
+}
+
 std::string percentage(double fraction, int digits) {
   constexpr double least = 1e-5;
   const double size = std::abs(fraction);

@@ -48,20 +48,24 @@ Table loops_of(const std::vector<FrictionMeasures>& contacts, const solvers::Mot
 
 // In time integration rigid friction begins at the structure's position, whatever `slider` is.
 void warn_of_history(Record& record, const std::vector<FrictionMeasures>& contacts, bool in_time) {
-  std::vector<std::string> stuck;
+  std::vector<std::string> stuck;  // by their names
+  std::vector<int> numbers;        // of the others
   bool elastic = true;
   for (const FrictionMeasures& one : contacts)
     if (one.history_dependent) {
-      const std::string number = "contact " + std::to_string(one.number);
-      stuck.push_back(one.name == number ? std::to_string(one.number) : one.name);
+      if (one.name == "contact " + std::to_string(one.number))
+        numbers.push_back(one.number);
+      else
+        stuck.push_back(one.name);
       elastic = elastic && !one.law.rigid();
     }
-  if (stuck.empty()) return;
-  const char* ending = stuck.size() == 1 ? "s" : "";
+  const std::size_t count = stuck.size() + numbers.size();
+  if (count == 0) return;
+  if (!numbers.empty()) stuck.insert(stuck.begin(), number_ranges(numbers));
+  const char* ending = count == 1 ? "s" : "";
   const bool settable = elastic || !in_time;
   warn(record, "Contact{} {} neither slip{} nor open{}: the force depends on the history{}.",
-       stuck.size() == 1 ? "" : "s", fmt::join(stuck, ", "), ending, ending,
-       settable ? ", which slider sets" : "");
+       count == 1 ? "" : "s", fmt::join(stuck, ", "), ending, ending, settable ? ", which slider sets" : "");
 }
 
 /// The difference of the friction work from the work of the load less damping, an error of the

@@ -144,13 +144,6 @@ Table table_of(const ModeStudy& study, const std::vector<solvers::ModeSpecialPoi
   return table;
 }
 
-/// Without the digits that an error leaves open.
-double known_digits(double value, double error) {
-  if (!(error > 0.0)) return value;
-  const double decimals = std::pow(10.0, -std::floor(std::log10(error)));
-  return std::round(value * decimals) / decimals;
-}
-
 /// The stability along a backbone of an elastic mode; without points otherwise, and where analysis.stability
 /// is false.
 solvers::BackboneStability stability_of(const ModeStudy& study, const Backbone& curve,
@@ -193,19 +186,17 @@ void append_stability(Record& record, const ModeStudy& study, const solvers::Mod
   if (!study.scene().analysis.stability) return;
   ResponseStability stability;
   stability.status = no_law_of_impact;
-  double error = missing;
+  stability.leading_error = missing;
   if (study.elastic_mode()) {
     const auto found = solvers::ModeMultipliers(*study.elastic_mode())(point);
     const bool known = found.status == solvers::StabilityStatus::converged;
     stability.status = !known ? to_string(found.status) : found.unstable > 0 ? "unstable" : "stable";
     stability.unstable = found.unstable;
     if (found.multipliers.size() > 0)
-      stability.leading = {known_digits(found.multipliers[0].real(), found.error),
-                           known_digits(std::abs(found.multipliers[0].imag()), found.error)};
-    error = found.error;
+      stability.leading = {found.multipliers[0].real(), std::abs(found.multipliers[0].imag())};
+    stability.leading_error = found.error;
   }
   append_stability(record, stability, "free motion");
-  record.add(quantities::leading_multiplier_error, error);
 }
 
 Record curve_record(const ModeStudy& study, const Observer& observer) {

@@ -1,5 +1,8 @@
 #include "results/record_parts.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "analysis/analysis_parts.hpp"
 #include "drawing/figures.hpp"
 #include "files/missing.hpp"
@@ -152,13 +155,14 @@ void append_dissipation(Summary& summary, const Scene& scene, const Response& re
   summary.emplace_back(quantities::contact_dissipation, power / scene.forcing.frequency);
 }
 
-/// The relative error of the vibration of the contact with the largest force; missing without a motion.
+/// The relative error of the vibration of the contact with the largest force, not below the error of the
+/// exact motion; missing without a motion.
 double vibration_error(const solvers::ExactSolution& motion, const Response& response) {
   if (motion.parts == nullptr) return missing;
   const Eigen::MatrixXd exact = motion.displacement(time_fractions(response.contacts.points()));
   const double vibration = solvers::largest_vibration(exact.row(response.contact)).half_peak_to_peak;
-  return std::abs(solvers::largest_vibration(response.leading().displacement).half_peak_to_peak - vibration) /
-         vibration;
+  const double measured = solvers::largest_vibration(response.leading().displacement).half_peak_to_peak;
+  return std::max(motion.estimated_error, std::abs(measured - vibration) / vibration);
 }
 
 void append_exact(Record& record, const Scene& scene, const Response& response) {
@@ -181,6 +185,10 @@ void append_exact(Record& record, const Scene& scene, const Response& response) 
   record.add("phases_estimated_error", known ? found.motion.estimated_error : missing);
   record.add("phases_unknowns", found.motion.unknowns);
   record.add(quantities::contact_intervals, intervals_table(scene, found.motion));
+  if (response.stability && found.motion.status == solvers::ExactStatus::too_many_intervals)
+    record.warnings.emplace_back(
+        "The exact periodic solution near this response takes too long. analysis.phases = false counts the "
+        "multipliers of the response itself.");
   const bool none = found.motion.status == solvers::ExactStatus::not_found && !is_exact(response);
   if (response.stability && !none)
     record.add(quantities::stability_by, response.stability->is_exact ? "phases" : "balance");

@@ -214,6 +214,13 @@ void append_isolas_found(Record& record, const Sweep& sweep) {
   record.add("special_points_of_isolas", table_of(special));
 }
 
+/// Without the digits that an error leaves open.
+double known_digits(double value, double error) {
+  if (!(error > 0.0)) return value;
+  const double decimals = std::pow(10.0, -std::floor(std::log10(error)));
+  return std::round(value * decimals) / decimals;
+}
+
 }  // namespace
 
 void append_stability(Record& record, const ResponseStability& stability, std::string_view motion) {
@@ -221,8 +228,10 @@ void append_stability(Record& record, const ResponseStability& stability, std::s
   record.add(quantities::unstable_multipliers, stability.unstable >= 0
                                                    ? SummaryValue(std::int64_t{stability.unstable})
                                                    : SummaryValue(missing));
-  record.add(quantities::leading_multiplier_real, stability.leading.real());
-  record.add(quantities::leading_multiplier_imag, stability.leading.imag());
+  const double error = stability.leading_error;
+  record.add(quantities::leading_multiplier_real, known_digits(stability.leading.real(), error));
+  record.add(quantities::leading_multiplier_imag, known_digits(stability.leading.imag(), error));
+  if (error != 0.0) record.add(quantities::leading_multiplier_error, error);
   if (stability.unstable <= 0) return;
   constexpr double real = 1e-6;  // of the modulus
   const bool pair = stability.unstable == 2 && stability.leading.imag() > real * std::abs(stability.leading);

@@ -47,10 +47,13 @@ MotionStability by_balance(const CondensedProblem& problem, const ContactLaws& l
   options.stability = stability_options(problem);
   const auto count = unstable_multipliers(dynamics, problem, laws, response, options.stability);
   MotionStability result = stability_of(count);
-  if (count.status != StabilityStatus::converged || std::isfinite(count.leading.real())) return result;
+  const bool exact = std::isfinite(count.leading.real()) && count.leading_error == 0.0;
+  if (count.status != StabilityStatus::converged || exact) return result;
   const FloquetExponents exponents = floquet_exponents(dynamics, problem, laws, response, options);
-  if (exponents.status == StabilityStatus::converged && !exponents.values.empty())
-    result.leading = exponents.values.front().multiplier;
+  result.leading_error = count.leading_error;
+  if (exponents.status != StabilityStatus::converged || exponents.values.empty()) return result;
+  result.leading = exponents.values.front().multiplier;
+  result.leading_error = 0.0;
   return result;
 }
 

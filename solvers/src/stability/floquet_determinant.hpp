@@ -33,6 +33,11 @@ class FloquetDeterminant {
   /// Whether the rules of the pieces represent the stiffness; without that there are no nodes.
   bool resolved() const { return resolved_; }
   int nodes() const { return static_cast<int>(time_.size()); }
+  /// Real operations of one evaluation without derivative: the sums over harmonics and a factorization.
+  double operations() const {
+    const double n = nodes();
+    return n * n * (8.0 * (2 * harmonics() + 1) + 8.0 / 3.0 * n);
+  }
   int harmonics() const { return harmonics_; }         ///< H
   double angular_frequency() const { return omega_; }  ///< omega, rad/s
   /// Exponents up to which (1/s) resonate within these harmonics.

@@ -108,17 +108,25 @@ std::vector<Complex> approximate_multipliers(const FloquetDeterminant& determina
   return multipliers;
 }
 
+std::size_t wanted_exponents(const FloquetOptions& options) {
+  return options.starts.empty() ? 2 * std::size_t(options.max_exponents) + 2 : options.starts.size();
+}
+
+// Newton's method takes about four evaluations with a derivative, each as costly as three without.
+double expected_operations(const FloquetDeterminant& determinant, const FloquetOptions& options) {
+  constexpr double evaluations = 12.0;
+  return evaluations * double(wanted_exponents(options)) * determinant.operations();
+}
+
 // Into found(). Without starts of the caller's the approximate multipliers are not in the order of the
 // exact ones, so that twice the requested number is computed.
 void find_exponents(CharacteristicPolynomial& characteristic, const FloquetOptions& options) {
   const double period = characteristic.period();
   std::vector<Complex> starts = options.starts;
-  std::size_t wanted = starts.size();
-  if (starts.empty()) {
-    wanted = 2 * std::size_t(options.max_exponents) + 2;
+  const std::size_t wanted = wanted_exponents(options);
+  if (starts.empty())
     for (const Complex multiplier : approximate_multipliers(characteristic.determinant()))
       starts.push_back(std::log(multiplier) / period);
-  }
   std::vector<Complex>& found = characteristic.found();
   for (const Complex start : starts) {
     if (found.size() == wanted) break;
@@ -184,6 +192,11 @@ FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const Period
   }
   FloquetDeterminant& determinant = *resolving;
   result.harmonics = determinant.harmonics();
+  if (options.starts.empty() &&
+      expected_operations(determinant, options) > options.stability.max_operations) {
+    result.status = StabilityStatus::effort_limit;
+    return result;
+  }
   CharacteristicPolynomial characteristic(determinant);
   const double period = characteristic.period();
   find_exponents(characteristic, options);

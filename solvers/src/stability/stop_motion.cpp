@@ -117,7 +117,7 @@ class StopSearch {
     constexpr double settled = 1e-9, most_left = 0.25;
     double before = std::numeric_limits<double>::infinity();
     std::optional<Eigen::MatrixXd> map = close(pattern);
-    bool current = true;  // whether the map is that of the pattern
+    bool current = true;  // whether the map belongs to the pattern
     for (int n = 0; map && n < most; ++n) {
       std::optional<StopPattern> next = follow(pattern.closed);
       if (!next) return std::nullopt;
@@ -178,7 +178,7 @@ class StopSearch {
     return state_.allFinite() ? std::optional(std::move(map)) : std::nullopt;
   }
 
-  // From the modal states of one flow to those of the next.
+  // From the modal states of one flow to the next one's.
   const Eigen::MatrixXd& between(const LinearFlow& one, const LinearFlow& next) {
     const auto [at, made] = between_.try_emplace({&one, &next});
     if (made) at->second = detail::product(next.left, one.right);
@@ -268,7 +268,7 @@ class StopSearch {
   std::map<std::vector<int>, LinearFlow> flows_;
   std::map<std::pair<const LinearFlow*, const LinearFlow*>, Eigen::MatrixXd> between_;
   Eigen::VectorXd state_, end_;  // at the origin and a period later, with the waves
-  detail::Lu<double> fixed_;     // of 1 - the last map
+  detail::Lu<double> fixed_;     // 1 - the last map
   std::vector<StopFlight> flights_;
 };
 

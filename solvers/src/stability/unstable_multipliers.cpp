@@ -23,24 +23,18 @@ namespace {
 
 using std::numbers::pi;
 
-// Real operations of one evaluation without derivative: the sums over harmonics and a factorization.
-double operations_of(const FloquetDeterminant& determinant) {
-  const double nodes = determinant.nodes();
-  return nodes * nodes * (8.0 * (2 * determinant.harmonics() + 1) + 8.0 / 3.0 * nodes);
-}
-
 // True where the monodromy costs much less: many nodes on few modes, which many contacts that last long have.
 bool is_costly(const FloquetDeterminant& determinant, const PeriodicStiffness& stiffness, double frequency,
                bool eigenvalues) {
   constexpr double many_operations = 1e9;
-  const double operations = operations_of(determinant) * first_evaluations(determinant);
+  const double operations = determinant.operations() * first_evaluations(determinant);
   return operations > many_operations &&
          operations >
              2.0 * monodromy_operations(determinant.dynamics(), stiffness, frequency, eigenvalues, {});
 }
 
 int affordable_evaluations(const FloquetDeterminant& determinant, const StabilityOptions& options) {
-  const double affordable = options.max_operations / std::max(1.0, operations_of(determinant));
+  const double affordable = options.max_operations / std::max(1.0, determinant.operations());
   return static_cast<int>(std::min<double>(options.max_evaluations, affordable));
 }
 
@@ -243,34 +237,43 @@ std::optional<UnstableMultipliers> counted_by_map(const Way& way, const ContactD
   return result;
 }
 
+double distance_to(std::complex<double> one, const Eigen::VectorXcd& others) {
+  return (others.array() - one).abs().minCoeff();
+}
+
 // Whether each multiplier of one map is farther from the circle than three times its distance to the other
 // map's, and both have the same number outside.
-bool are_decided(const HarmonicMaps& maps, const Eigen::VectorXcd& multipliers) {
+bool are_decided_by_maps(const Eigen::VectorXcd& multipliers, const Eigen::VectorXcd& others) {
   constexpr double least_margin = 1e-5;
-  const Eigen::VectorXcd others = detail::map_multipliers(maps.at_half.map);
-  if (!multipliers.allFinite() || !others.allFinite()) return false;
-  for (const std::complex<double> one : multipliers) {
-    const double error = (others.array() - one).abs().minCoeff();
-    if (std::abs(std::abs(one) - 1.0) < std::max(least_margin, 3.0 * error)) return false;
-  }
+  if (multipliers.size() == 0 || !multipliers.allFinite() || !others.allFinite()) return false;
+  for (const std::complex<double> one : multipliers)
+    if (std::abs(std::abs(one) - 1.0) < std::max(least_margin, 3.0 * distance_to(one, others))) return false;
   return detail::count_outside(multipliers) == detail::count_outside(others);
 }
 
-// By both maps of the harmonics, where they leave no doubt.
+// By both maps of the harmonics, where they leave no doubt. Modes above all harmonics have free multipliers.
 std::optional<UnstableMultipliers> counted_by_harmonics(Way& way, const StabilityOptions& options) {
   const FloquetDeterminant& determinant = *way.determinant;
   if (determinant.nodes() == 0 || options.max_evaluations < 2 ||
       harmonic_operations(determinant) > options.max_operations)
     return std::nullopt;
   const HarmonicMaps& maps = maps_of(way);
-  const Eigen::VectorXcd multipliers = detail::map_multipliers(maps.at_zero.map);
-  if (multipliers.size() == 0 || !are_decided(maps, multipliers)) return std::nullopt;
+  const Eigen::VectorXcd multipliers = detail::map_multipliers(maps.at_zero.map),
+                         others = detail::map_multipliers(maps.at_half.map);
+  if (!are_decided_by_maps(multipliers, others)) return std::nullopt;
   UnstableMultipliers result;
   result.harmonics = options.harmonics;
   result.evaluations = 2;
   result.count = detail::count_outside(multipliers);
-  for (const std::complex<double> free : free_multipliers(determinant))
+  result.leading = multipliers[0];
+  result.leading_error = 2.0 * distance_to(multipliers[0], others);
+  for (const std::complex<double> free : free_multipliers(determinant)) {
     if (std::abs(free) > 1.0) result.count += 2;
+    if (std::abs(free) <= std::abs(result.leading)) continue;
+    result.leading = free;
+    result.leading_error = 0.0;
+  }
+  result.leading.imag(std::abs(result.leading.imag()));
   result.winding = result.count;
   return result;
 }

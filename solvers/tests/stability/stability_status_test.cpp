@@ -151,6 +151,8 @@ TEST(StabilityStatus, OfManyLongContactsIsCountedByTheMonodromyWithinTheOperatio
   const auto counted = unstable_multipliers(dynamics, stiffness, frequency, options);
   EXPECT_GT(counted.evaluations, 0);
   EXPECT_EQ(counted.count, quick.count);
+  EXPECT_GT(counted.leading_error, 0.0);
+  EXPECT_LE(std::abs(counted.leading - quick.leading), counted.leading_error);
   options.max_operations = 1e7;
   expect_unknown(unstable_multipliers(dynamics, stiffness, frequency, options),
                  StabilityStatus::effort_limit);

@@ -163,6 +163,11 @@ TEST(FloquetExponents, AreThoseOfTheMonodromyWithTheirModes) {
     ASSERT_EQ(exponents.status, StabilityStatus::converged);
     ASSERT_FALSE(exponents.values.empty());
     EXPECT_NEAR(std::abs(exponents.values[0].multiplier), std::abs(multipliers[0]), 1e-4);
+    const auto counted =
+        unstable_multipliers(dynamics, random.stiffness, random.frequency, options.stability);
+    if (counted.leading_error > 0.0) {
+      EXPECT_LE(std::abs(counted.leading - exponents.values[0].multiplier), counted.leading_error);
+    }
     for (const FloquetExponent& value : exponents.values) {
       EXPECT_LT((multipliers.array() - value.multiplier).abs().minCoeff(), 1e-3) << contacts;
       EXPECT_NEAR(value.displacement.cwiseAbs().maxCoeff(), 1.0, 1e-12);

@@ -32,6 +32,9 @@ std::string short_number(double value, int digits = 4);
 /// "0.5, 12.25": short_number() of each.
 std::string short_numbers(std::span<const double> values, int digits);
 
+/// "1, 4 to 6, 8" of ascending numbers.
+std::string number_ranges(std::span<const int> numbers);
+
 /// `fraction` as "12.3 %", or "less than 0.001 %".
 std::string percentage(double fraction, int digits = 3);
 

@@ -20,6 +20,7 @@ struct MotionStability {
   /// The multiplier of the largest modulus, Im >= 0, of several the one with the largest real part; NaN where
   /// it is not known or below 1e-2.
   std::complex<double> leading{missing, missing};
+  double leading_error = 0.0;  ///< estimated, where refining it would cost too much
   /// Whether it belongs to the exact motion or to the balance.
   bool is_exact = false;
   double wall_seconds = 0.0;

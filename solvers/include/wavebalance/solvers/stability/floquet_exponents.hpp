@@ -49,7 +49,8 @@ struct FloquetExponents {
 /// where it is a polynomial in 1/z [the numerator prod (1 - mu_j / z)], and the roots of that are the
 /// starts: 17 to 513 evaluations, and 5 to 10 for each exponent. With laws that depend on the velocity the
 /// exponents come from monodromy(), without motions. unstable_multipliers() then checks whether all
-/// exponents with positive real parts are among those found; if not, the status is effort_limit.
+/// exponents with positive real parts are among those found; if not, or if the search is expected to exceed
+/// stability.max_operations, the status is effort_limit.
 /// Multipliers below 1e-2 are not computed. An undamped structure has poles on that circle and its status
 /// is undamped, except with `starts`, which are not checked. Throws std::invalid_argument as
 /// unstable_multipliers does.

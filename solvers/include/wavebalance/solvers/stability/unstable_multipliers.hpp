@@ -37,8 +37,10 @@ struct UnstableMultipliers {
   int harmonics = 0;     ///< H taken
   int evaluations = 0;   ///< of the determinant; two real ones count as two
   double winding = 0.0;  ///< the unrounded count; differs from an integer only by rounding
-  /// The largest multiplier in modulus, Im >= 0, if requested and the monodromy was used, otherwise NaN.
+  /// The largest multiplier in modulus, Im >= 0, of the monodromy, if requested, or of two maps; otherwise
+  /// NaN.
   std::complex<double> leading{missing, missing};
+  double leading_error = 0.0;  ///< estimated, of two maps twice their distance
 };
 
 /// The number of Floquet multipliers outside the unit circle, of perturbations v of
