@@ -45,6 +45,7 @@ MotionStability by_balance(const CondensedProblem& problem, const ContactLaws& l
                            const PeriodicResponse& response, const ContactDynamics& dynamics) {
   FloquetOptions options;
   options.stability = stability_options(problem);
+  options.max_operations = options.stability.max_operations;
   const auto count = unstable_multipliers(dynamics, problem, laws, response, options.stability);
   MotionStability result = stability_of(count);
   const bool exact = std::isfinite(count.leading.real()) && count.leading_error == 0.0;

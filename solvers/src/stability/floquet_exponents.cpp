@@ -163,6 +163,7 @@ void FloquetOptions::validate() const {
   detail::require_at_least("FloquetOptions", "max_exponents", max_exponents, 1);
   detail::require_at_least("FloquetOptions", "max_iterations", max_iterations, 1);
   detail::require_positive("FloquetOptions", "tolerance", tolerance);
+  detail::require_positive("FloquetOptions", "max_operations", max_operations);
 }
 
 FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
@@ -192,8 +193,7 @@ FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const Period
   }
   FloquetDeterminant& determinant = *resolving;
   result.harmonics = determinant.harmonics();
-  if (options.starts.empty() &&
-      expected_operations(determinant, options) > options.stability.max_operations) {
+  if (options.starts.empty() && expected_operations(determinant, options) > options.max_operations) {
     result.status = StabilityStatus::effort_limit;
     return result;
   }

@@ -1,5 +1,6 @@
 #pragma once
 #include <complex>
+#include <limits>
 #include <vector>
 
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"
@@ -26,6 +27,8 @@ struct FloquetOptions {
   int max_exponents = 4;     ///< exponents of the largest multipliers, a conjugate pair counted once
   double tolerance = 1e-11;  ///< on the last step of Newton's method, relative to the frequency
   int max_iterations = 40;   ///< of Newton's method for each exponent
+  /// Expected floating-point operations of a search without starts, beyond which nothing is computed.
+  double max_operations = std::numeric_limits<double>::infinity();
   /// Where Newton's method starts, 1/s, as along a curve from the point before; empty: at the roots of the
   /// polynomial that the determinant is on the unit circle.
   std::vector<std::complex<double>> starts;
@@ -50,10 +53,9 @@ struct FloquetExponents {
 /// starts: 17 to 513 evaluations, and 5 to 10 for each exponent. With laws that depend on the velocity the
 /// exponents come from monodromy(), without motions. unstable_multipliers() then checks whether all
 /// exponents with positive real parts are among those found; if not, or if the search is expected to exceed
-/// stability.max_operations, the status is effort_limit.
-/// Multipliers below 1e-2 are not computed. An undamped structure has poles on that circle and its status
-/// is undamped, except with `starts`, which are not checked. Throws std::invalid_argument as
-/// unstable_multipliers does.
+/// max_operations, the status is effort_limit. Multipliers below 1e-2 are not computed. An undamped structure
+/// has poles on that circle and its status is undamped, except with `starts`, which are not checked. Throws
+/// std::invalid_argument as unstable_multipliers does.
 FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                    double frequency, const FloquetOptions& options);
 FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const CondensedProblem& problem,
