@@ -66,7 +66,7 @@ class ContactFlow::Engine {
   };
 
   detail::PanelMotion motion(const detail::PanelShape& shape) const {
-    return {poles_, shape, time_, states_, now_.memory};
+    return {poles_, shape, time_, states_, now_.memory, factor_};
   }
   void set_small_force(const ExactProblem& problem);
   const detail::PanelShape& shape(int level);
@@ -118,6 +118,7 @@ class ContactFlow::Engine {
   detail::LegendreNodes nodes_;
   DensePoints dense_;
   Eigen::VectorXd rest_position_;
+  mutable detail::KeptFactor factor_;  // of the last panel
   std::map<int, std::unique_ptr<detail::PanelShape>> shapes_;
 
   double span_ = 0.0;  // s, of the period

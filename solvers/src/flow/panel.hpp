@@ -5,6 +5,7 @@
 
 #include "collocation/legendre_integrals.hpp"
 #include "flow/contact_poles.hpp"
+#include "linalg/dense.hpp"
 
 namespace wavebalance::solvers::detail {
 
@@ -59,6 +60,19 @@ struct NodeValues {
   Eigen::MatrixXd force, memory_rate;
 };
 
+/// Solves with a matrix whose factors are kept: linear laws have one on all panels of a length between
+/// events.
+class KeptFactor {
+ public:
+  /// x with matrix x = right. Contacts that hold each other, as a stop and a stuck slider at one mass, leave
+  /// it undetermined: the smallest is returned.
+  Eigen::MatrixXd solve(Eigen::MatrixXd matrix, const Eigen::MatrixXd& right);
+
+ private:
+  Eigen::MatrixXd matrix_;
+  Lu<double> factor_;
+};
+
 /// The motion on a panel of a shape that begins at a time with states of the poles, P, and memories, M.
 struct PanelMotion {
   const ContactPoles& poles;
@@ -66,6 +80,7 @@ struct PanelMotion {
   double begin;  ///< s
   const Eigen::VectorXcd& state;
   const std::vector<double>& memory;
+  KeptFactor& factor;
 
   /// Signals at the points of waves; law forces have the force of the holding springs back.
   Signals at(const PoleWaves& waves, const NodeValues& values) const;

@@ -213,12 +213,15 @@ Eigen::MatrixXd equations_by_unknowns(const Contacts& contacts, const FreeForces
   return result;
 }
 
-Eigen::MatrixXd solve_for_unknowns(const Eigen::MatrixXd& by_forces, const Eigen::MatrixXd& right) {
+Eigen::MatrixXd KeptFactor::solve(Eigen::MatrixXd matrix, const Eigen::MatrixXd& right) {
   constexpr double singular = 1e-12;
-  const Lu<double> lu(by_forces);
-  if (!lu.is_singular(singular)) return lu.solve(right);
+  if (matrix_.rows() != matrix.rows() || matrix_ != matrix) {
+    matrix_ = std::move(matrix);
+    factor_.compute(matrix_);
+  }
+  if (!factor_.is_singular(singular)) return factor_.solve(right);
   Eigen::MatrixXd result(right.rows(), right.cols());
-  for (Index k = 0; k < right.cols(); ++k) result.col(k) = least_squares(by_forces, right.col(k));
+  for (Index k = 0; k < right.cols(); ++k) result.col(k) = least_squares(matrix_, right.col(k));
   return result;
 }
 
@@ -275,8 +278,8 @@ SolvedPanel solve_panel(const Contacts& contacts, const ContactStates& now, cons
     Eigen::VectorXd residual(count * q);
     for (Index e = 0; e < count; ++e)
       for (Index k = 0; k < q; ++k) residual[e * q + k] = equations[std::size_t(e)][std::size_t(k)].value;
-    const Eigen::VectorXd step =
-        solve_for_unknowns(equations_by_unknowns(contacts, free, motion.shape, equations, holding), residual);
+    const Eigen::VectorXd step = motion.factor.solve(
+        equations_by_unknowns(contacts, free, motion.shape, equations, holding), residual);
     if (!step.allFinite()) return result;
     for (Index e = 0; e < count; ++e) unknown.row(e) -= step.segment(e * q, q).transpose();
     result.values.force = (free.combine * unknown.topRows(forces)).colwise() + free.constant;

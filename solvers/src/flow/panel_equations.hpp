@@ -81,10 +81,6 @@ struct SlopeOfSignals {
   double rate(const Signals& signals, Index point) const;
 };
 
-/// The unknowns by the derivative of their equations. Contacts that hold each other, as a stop and a stuck
-/// slider at one mass, leave forces undetermined: the smallest are taken.
-Eigen::MatrixXd solve_for_unknowns(const Eigen::MatrixXd& by_forces, const Eigen::MatrixXd& right);
-
 /// Values on a panel that satisfy the laws at its nodes, and whether they were found.
 struct SolvedPanel {
   NodeValues values;

@@ -53,8 +53,8 @@ Eigen::MatrixXd Variation::of_unknowns(const Contacts& contacts, const ContactSt
         by_memory(e * q + n, contacts.memory_begin(c) + m) = slope.by_memory(m);
     }
   }
-  return -solve_for_unknowns(equations_by_unknowns(contacts, free, shape, equations, holding),
-                             product(by_start, poles_) + product(by_memory, memory_));
+  return -motion.factor.solve(equations_by_unknowns(contacts, free, shape, equations, holding),
+                              product(by_start, poles_) + product(by_memory, memory_));
 }
 
 void Variation::pass_delay(const PanelMotion& motion, const NodeValues& values) {
