@@ -163,7 +163,7 @@ void FloquetOptions::validate() const {
   detail::require_at_least("FloquetOptions", "max_exponents", max_exponents, 1);
   detail::require_at_least("FloquetOptions", "max_iterations", max_iterations, 1);
   detail::require_positive("FloquetOptions", "tolerance", tolerance);
-  detail::require_positive("FloquetOptions", "max_operations", max_operations);
+  if (!(max_operations > 0.0)) detail::reject("FloquetOptions", "max_operations", max_operations, "positive");
 }
 
 FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
