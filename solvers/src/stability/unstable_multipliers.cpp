@@ -271,7 +271,7 @@ std::optional<UnstableMultipliers> counted_by_harmonics(Way& way, const Stabilit
     if (std::abs(free) > 1.0) result.count += 2;
     if (std::abs(free) <= std::abs(result.leading)) continue;
     result.leading = free;
-    result.leading_error = 0.0;
+    result.leading_error = missing;  // by contact, which these maps leave out
   }
   result.leading.imag(std::abs(result.leading.imag()));
   result.winding = result.count;
