@@ -43,9 +43,8 @@ struct Candidate {
   Eigen::VectorXd series_flexibility;  // defines its form, see ContactOperator
   Eigen::VectorXd unknown;             // m, samples() values
   Strategy strategy = Strategy::none;
-  // Of all attempts so far; operations as ContactSystem counts them.
-  int iterations = 0;
-  double operations = 0.0;
+  int iterations = 0;       // Newton iterations of all attempts so far
+  double operations = 0.0;  // and their operations, as ContactSystem counts them
 
   bool converged() const { return newton.status == SolveStatus::converged; }
   bool ended() const { return converged() || newton.status == SolveStatus::cancelled; }
@@ -53,8 +52,10 @@ struct Candidate {
 
 /// The better of two candidates, with the sum of their effort.
 Candidate better(Candidate before, Candidate next) {
-  before.iterations = next.iterations += before.iterations;
-  before.operations = next.operations += before.operations;
+  next.iterations += before.iterations;
+  next.operations += before.operations;
+  before.iterations = next.iterations;
+  before.operations = next.operations;
   if (next.newton.status == SolveStatus::cancelled && next.unknown.size() == 0) {
     before.newton.status = SolveStatus::cancelled;
     return before;
