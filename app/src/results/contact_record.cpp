@@ -12,10 +12,10 @@
 namespace wavebalance::app {
 namespace {
 
+bool is_named(const FrictionMeasures& one) { return one.name != "contact " + std::to_string(one.number); }
+
 Table table_of(const std::vector<FrictionMeasures>& contacts) {
-  const bool named = std::ranges::any_of(contacts, [](const FrictionMeasures& one) {
-    return one.name != "contact " + std::to_string(one.number);
-  });
+  const bool named = std::ranges::any_of(contacts, is_named);
   std::vector<std::string> columns{"contact",       "friction_work_J", "stick_fraction", "slip_fraction",
                                    "open_fraction", "slip_m",          "wear_m3",        "history_dependent"};
   if (named) columns.emplace_back("name");
@@ -53,10 +53,10 @@ void warn_of_history(Record& record, const std::vector<FrictionMeasures>& contac
   bool elastic = true;
   for (const FrictionMeasures& one : contacts)
     if (one.history_dependent) {
-      if (one.name == "contact " + std::to_string(one.number))
-        numbers.push_back(one.number);
-      else
+      if (is_named(one))
         stuck.push_back(one.name);
+      else
+        numbers.push_back(one.number);
       elastic = elastic && !one.law.rigid();
     }
   const std::size_t count = stuck.size() + numbers.size();
