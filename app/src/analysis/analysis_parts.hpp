@@ -46,8 +46,10 @@ double most_operations_of_exact(int contacts);
 void copy_solution(Response& result, solvers::CondensedProblem& problem,
                    const solvers::PeriodicResponse& found, const Scene& scene, const StructureModel& model);
 
-/// Sets Response::settled if the response of the problem's load period at the scene's frequency is
-/// unstable.
+AttractorFromRest from_rest(const solvers::AttractorMotion& settled);
+
+/// Sets Response::settled, unless it is known, if the response of the problem's load period at the scene's
+/// frequency is unstable, and removes it otherwise.
 void note_attractor(solvers::ContactProblem& problem, const Scene& scene, const Observer& observer,
                     Response& result);
 

@@ -99,8 +99,7 @@ void try_attractor(ExactFound& found, solvers::ContactProblem& problem, const Sc
   const solvers::AttractorMotion settled = problem.settle(scene.forcing.frequency, options);
   if (settled.cancelled) found.status = "cancelled";
   if (settled.cancelled || !settled.integrated() || !settled.last.displacement.allFinite()) return;
-  found.settled = {settled.attractor_periods, settled.last.displacement.maxCoeff(),
-                   settled.last.force.maxCoeff()};
+  found.settled = from_rest(settled);
   auto motion = problem.exact_near(scene.forcing.frequency, settled,
                                    {.tolerance = exact_tolerance(scene), .observer = observer});
   if (motion && (motion->converged() || found.may_go_on()))

@@ -6,6 +6,7 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/period/attractor_integration.hpp"
 #include "wavebalance/solvers/problem/exact_along.hpp"
@@ -41,25 +42,49 @@ void note_motion(solvers::ContactProblem& problem, const solvers::PeriodicRespon
   if (options.exact) note_exact(problem, found, options, result);
   if (options.stability)
     result.stability = problem.stability(found, result.exact ? &result.exact->motion : nullptr);
+  if (found.settled) result.settled = from_rest(*found.settled);
   note_attractor(problem, scene, options.observer, result);
 }
 
-/// Whether the exact motion that time integration converges to is known now, instead of a balance.
+/// The exact motion that time integration converges to, or an unstable one near its returns; nothing where
+/// none is found.
+std::optional<solvers::ExactSolution> exact_from(solvers::ContactProblem& problem, double frequency,
+                                                 const solvers::AttractorMotion& settled,
+                                                 solvers::CollocationOptions options) {
+  if (settled.repeats_after(solvers::load_periods(problem.condensed())))
+    return problem.exact_near(frequency, settled, options);
+  constexpr double share = 0.6;  // the balance from each return has taken seconds before
+  options.max_operations *= share;
+  for (const solvers::Motion& piece : settled.returns) {
+    auto motion = problem.exact_near(frequency, settled.at(piece), options);
+    if (!motion || motion->converged()) return motion;
+    options.max_operations -= motion->operations;
+    if (motion->status != solvers::ExactStatus::not_found || options.max_operations <= 0.0) break;
+  }
+  return std::nullopt;
+}
+
+/// Whether an exact motion is known now, instead of a balance.
 bool solve_exactly(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found,
                    const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                    Response& result) {
-  if (!options.exact_instead || found.settled == nullptr) return false;
+  if (!options.exact_instead || found.converged() || found.settled == nullptr) return false;
+  // Friction that never repeats has wear and work, which the record of the motion that occurs tells.
+  if (has_friction(scene) && found.settled->attractor_periods == 0) return false;
   solvers::CollocationOptions exact;
   exact.max_operations = most_operations_of_exact(problem.contacts());
   exact.observer = options.observer;
-  const auto motion = problem.exact_near(scene.forcing.frequency, *found.settled, exact);
+  const auto motion = exact_from(problem, scene.forcing.frequency, *found.settled, exact);
   if (!motion || !motion->converged()) return false;
+  const int load_periods = solvers::load_periods(problem.condensed());
+  const bool repeats = found.settled->repeats_after(load_periods);
   result = {};
   result.solved_by = result.form = name_of(TimeMethod::exact);
   result.status = to_string(motion->status);
-  result.strategy = "from_settling";
+  result.strategy = repeats ? "from_settling" : to_string(solvers::Strategy::recurrence);
   result.attractor_periods = found.attractor_periods;
-  copy_exact(problem, *motion, solvers::load_periods(problem.condensed()), scene, model, options, result);
+  result.settled = from_rest(*found.settled);
+  copy_exact(problem, *motion, load_periods, scene, model, options, result);
   return true;
 }
 
@@ -218,16 +243,18 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
   return result;
 }
 
+AttractorFromRest from_rest(const solvers::AttractorMotion& settled) {
+  if (!settled.integrated()) return {settled.attractor_periods};
+  return {settled.attractor_periods, settled.last.displacement.maxCoeff(), settled.last.force.maxCoeff()};
+}
+
 void note_attractor(solvers::ContactProblem& problem, const Scene& scene, const Observer& observer,
                     Response& result) {
   const bool unstable = result.stability && result.stability->unstable > 0;
-  if (!unstable || scene.analysis.subharmonic > 1) return;
-  const solvers::AttractorMotion settled = problem.settle(scene.forcing.frequency, {.observer = observer});
-  AttractorFromRest& beside = result.settled.emplace();
-  beside.periods = settled.attractor_periods;
-  if (!settled.integrated()) return;
-  beside.max_displacement = settled.last.displacement.maxCoeff();
-  beside.max_force = settled.last.force.maxCoeff();
+  if (!unstable || scene.analysis.subharmonic > 1)
+    result.settled.reset();
+  else if (!result.settled)
+    result.settled = from_rest(problem.settle(scene.forcing.frequency, {.observer = observer}));
 }
 
 }  // namespace wavebalance::app

@@ -173,9 +173,12 @@ void append_exact(Record& record, const Scene& scene, const Response& response) 
     record.add(quantities::estimated_error, known ? found.motion.estimated_error : missing);
     record.add("start_functions", response.start_functions);
     if (!response.form.empty())
-      record.warnings.emplace_back(
+      record.warnings.push_back(fmt::format(
           "The functions of the scene do not hold this motion: no solution of the discretised equations was "
-          "found near it. It is the exact motion that time integration from rest converges to.");
+          "found near it. It is the exact motion {}.",
+          response.strategy == to_string(solvers::Strategy::recurrence)
+              ? "to which the motion from rest nearly returns"
+              : "that time integration from rest converges to"));
   } else {
     record.add(quantities::phases_status, to_string(found.motion.status));
     record.add(quantities::error_of_vibration, vibration_error(found.motion, response));

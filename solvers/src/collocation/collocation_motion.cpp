@@ -243,6 +243,7 @@ class Search {
 
   ExactSolution describe(const Found& found, ExactSolution result) const {
     const CollocationIterate& iterate = found.newton.iterate;
+    result.operations = options_.max_operations - operations_left_;
     result.residual = found.newton.residual;
     result.unknowns = static_cast<int>(iterate.forces.coefficients().size()) +
                       static_cast<int>(iterate.layout.passages.size());

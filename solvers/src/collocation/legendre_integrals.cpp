@@ -26,6 +26,10 @@ Scalar decayed(Scalar w) {
   return std::real(w) < negligible ? Scalar(0.0) : std::exp(w);
 }
 
+// The division of complex numbers, which guards against overflow, takes most of the time of a recurrence.
+double reciprocal(double x) { return 1.0 / x; }
+Complex reciprocal(Complex x) { return std::conj(x) / std::norm(x); }
+
 // Up to which k the recurrence is followed upwards, and where the boundary value problem ends.
 struct Ranges {
   Index upwards, last;
@@ -104,7 +108,7 @@ void ExponentialIntegrals<Scalar>::solve_downwards(Scalar z, Index from, Index l
   y_.col(last) = jumps_.col(last).cast<Scalar>();
   for (Index k = last - 1; k > from; --k) {
     const Scalar factor = z * inverse_[k + 1];
-    inverse_[k] = 1.0 / (double(2 * k + 1) + factor * z);
+    inverse_[k] = reciprocal(double(2 * k + 1) + factor * z);
     y_.col(k) = jumps_.col(k) + factor * y_.col(k + 1);
   }
   for (Index k = from + 1; k < std::max(count_, from + 1); ++k)

@@ -107,6 +107,7 @@ class MotionSearch {
     motion_.unknowns = int(found_.state.size());
     motion_.residual = found_.distance;
     motion_.iterations = iterations_;
+    motion_.operations = options_.max_operations - operations_left_;
     motion_.estimated_error = error_;
     motion_.status = cancelled_                     ? ExactStatus::cancelled
                      : !found && exhausted_         ? ExactStatus::too_many_intervals
@@ -234,6 +235,7 @@ ExactSolution exact_motion(const ExactProblem& problem, const Eigen::MatrixXd& s
     if (rounding_of(problem, motion.displacement(times)) > options.tolerance) return motion;
   }
   ExactSolution other = flow_motion(problem, start, options, start_force);
+  motion.operations = other.operations += motion.operations;
   if (other.status == cancelled) motion.status = cancelled;  // nothing is known of what was not tried
   const bool better =
       other.parts != nullptr && (motion.parts == nullptr || other.estimated_error < motion.estimated_error);

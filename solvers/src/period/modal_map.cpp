@@ -48,10 +48,11 @@ Eigen::VectorXd ModalMap::forces_at(const PeriodState& state, Ticks time, Eigen:
   const ModalFlow& flow = flows_.front();
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(clear_below_.size(), clear_below_.size());
   return step_forces(
-      laws_,
-      {flow.static_compliance(), none, free_motion(0, time) + flow.contact_displacement(state.motion),
-       std::move(velocity), std::move(before)},
-      begin);
+             laws_,
+             {flow.static_compliance(), none, free_motion(0, time) + flow.contact_displacement(state.motion),
+              std::move(velocity), std::move(before)},
+             begin)
+      .force;
 }
 
 PeriodState ModalMap::balanced(PeriodState state) const {
@@ -98,8 +99,8 @@ ModalMap::Step ModalMap::single(const PeriodState& begin, Ticks end, int level) 
   const ModalFlow& flow = this->flow(level);
   const auto states = double(flow.states()), contacts = double(clear_below_.size());
   constexpr double around = 1250.0;  // operations with the time of the rest of a step
-  constexpr double of_law = 1000.0;  // and the resolvent of a law
-  operations_ += 2.0 * states * (states + 2.0 * contacts) + around + of_law * contacts;
+  constexpr double of_law = 500.0;   // and the resolvent of a law
+  operations_ += 2.0 * states * (states + 2.0 * contacts) + around;
   Step step;
   step.end.motion = flow.advance(begin.motion, begin.force);
   step.displacement = free_motion(0, end);
@@ -108,10 +109,12 @@ ModalMap::Step ModalMap::single(const PeriodState& begin, Ticks end, int level) 
   if (is_clear(step.displacement)) return step;
   const Eigen::VectorXd velocity = depends_on_velocity_ ? this->velocity(step.end, end) : Eigen::VectorXd();
   const Ticks start = end - (Ticks{1} << (deepest_level - level));
-  step.end.force = step_forces(laws_,
-                               {flow.step_compliance(), flow.step_mobility(), step.displacement, velocity,
-                                has_memory_ ? displacement(begin, start) : Eigen::VectorXd()},
-                               begin.force);
+  StepForces forces = step_forces(laws_,
+                                  {flow.step_compliance(), flow.step_mobility(), step.displacement, velocity,
+                                   has_memory_ ? displacement(begin, start) : Eigen::VectorXd()},
+                                  begin.force);
+  operations_ += of_law * forces.evaluations;
+  step.end.force = std::move(forces.force);
   flow.add_force(step.end.motion, step.end.force);
   step.displacement.noalias() -= flow.step_compliance() * step.end.force;
   return step;

@@ -11,12 +11,16 @@ namespace {
 // The force f = law(u - d f, v - m f) of a law that depends on the velocity, by the regula falsi of Illinois
 // between 0 and the force at (u, v), every third step halved: the residual rises with f where no slope is
 // negative. At a jump of the law it is the value within.
-double implicit_force(const AnyContactLaw& law, double u, double v, double compliance, double mobility) {
+double implicit_force(const AnyContactLaw& law, double u, double v, double compliance, double mobility,
+                      int& evaluations) {
   constexpr int max_steps = 150;
   constexpr double settled = 1e-13;
   double near = 0.0, far = law.force(u, v);
   if (far == 0.0) return 0.0;
-  const auto excess = [&](double f) { return f - law.force(u - compliance * f, v - mobility * f); };
+  const auto excess = [&](double f) {
+    ++evaluations;
+    return f - law.force(u - compliance * f, v - mobility * f);
+  };
   double near_excess = -far, far_excess = excess(far);
   for (int i = 1; i <= max_steps && far_excess != 0.0; ++i) {
     const bool halve = i % 3 == 0 || far_excess == near_excess;
@@ -57,9 +61,12 @@ class Forces {
 
   const Eigen::VectorXd& force() const { return force_; }
 
+  int evaluations() const { return evaluations_; }
+
   // Sets the rows of a law from row `first` on; by how much a force changed.
   double set(const AnyContactLaw& law, Eigen::Index first) {
     const Eigen::Index rows = law.acts_over_period() ? law.rows() : 1;
+    ++evaluations_;
     if (law.acts_over_period())
       set_next_with_memory(law, first, rows);
     else
@@ -77,11 +84,11 @@ class Forces {
   }
 
  private:
-  double of_one_instant(const AnyContactLaw& law, Eigen::Index c) const {
+  double of_one_instant(const AnyContactLaw& law, Eigen::Index c) {
     const double d = flexibility_[c], u = displacement_[c] + d * force_[c];
     if (velocity_.size() > 0 && law.depends_on_velocity()) {
       const double m = end_.mobility(c, c);
-      return implicit_force(law, u, velocity_[c] + m * force_[c], d, m);
+      return implicit_force(law, u, velocity_[c] + m * force_[c], d, m, evaluations_);
     }
     return d > 0.0 ? law.resolvent(u, d).force : law.force(u);
   }
@@ -103,11 +110,12 @@ class Forces {
   Eigen::VectorXd force_, next_, flexibility_;
   Eigen::VectorXd displacement_, velocity_;  // under the forces
   Eigen::VectorXd without_;                  // displacements of a law's rows without its own forces
+  int evaluations_ = 0;
 };
 
 }  // namespace
 
-Eigen::VectorXd step_forces(const ContactLaws& laws, const StepEnd& end, const Eigen::VectorXd& begin) {
+StepForces step_forces(const ContactLaws& laws, const StepEnd& end, const Eigen::VectorXd& begin) {
   constexpr int max_rounds = 200;
   constexpr double settled = 1e-12;
   Forces forces(end, begin);
@@ -120,7 +128,7 @@ Eigen::VectorXd step_forces(const ContactLaws& laws, const StepEnd& end, const E
     }
     if (begin.size() == 1 || !(change > settled * forces.force().cwiseAbs().maxCoeff())) break;
   }
-  return forces.force();
+  return {forces.force(), forces.evaluations()};
 }
 
 }  // namespace wavebalance::solvers

@@ -16,9 +16,15 @@ struct StepEnd {
   Eigen::VectorXd before;
 };
 
+/// The contact forces at the end of a step.
+struct StepForces {
+  Eigen::VectorXd force;  ///< C, N
+  int evaluations = 0;    ///< of laws and resolvents
+};
+
 /// Contact forces f at the end of a step with f_c = law_c(displacement_c - (D f)_c, velocity_c - (B f)_c) by
 /// Gauss-Seidel, each force by its resolvent for the flexibility D_cc. `begin` has those at the start of the
 /// step.
-Eigen::VectorXd step_forces(const ContactLaws& laws, const StepEnd& end, const Eigen::VectorXd& begin);
+StepForces step_forces(const ContactLaws& laws, const StepEnd& end, const Eigen::VectorXd& begin);
 
 }  // namespace wavebalance::solvers

@@ -198,10 +198,7 @@ class MotionsSearch {
   void near_returns(const AttractorMotion& settled) {
     for (const Motion& piece : settled.returns) {
       if (cancelled_) return;
-      AttractorMotion start;
-      start.last = piece;
-      start.start = settled.start;
-      solve(1, start, MotionSource::newton);
+      solve(1, settled.at(piece), MotionSource::newton);
     }
   }
 

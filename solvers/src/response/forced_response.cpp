@@ -389,8 +389,7 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& a
   }
   PeriodicResponse response = response_of(task, std::move(candidate));
   response.attractor_periods = settled.attractor_periods;
-  if (!response.converged() && settled.repeats_after(load_periods(problem)))
-    response.settled = std::make_shared<const AttractorMotion>(std::move(settled));
+  if (settled.integrated()) response.settled = std::make_shared<const AttractorMotion>(std::move(settled));
   if (!response.converged() && response.status != SolveStatus::cancelled)
     for (const Eigen::VectorXd& at : {problem.linear_response(), response.displacement})
       laws.require_numbers(problem.contacts(), at);

@@ -1,10 +1,13 @@
 // The map over a period of the load, and after how many periods a motion repeats.
 
+#include <limits>
+
 #include "period/modal_map.hpp"
 #include "period/repetition.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 #include "testing.hpp"
+#include "wavebalance/contact/hunt_crossley_law.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -40,6 +43,24 @@ TEST(PeriodMap, EndsWhereTheOperationsAreUsedUp) {
   const ContactLaws none;
   ModalMap modes = modal_map(problem, none);
   EXPECT_FALSE(modes.advance(modes.state({}, {}), {1e-8, 100.0}).complete);
+}
+
+// A law of the velocity is evaluated many times per step, which once were counted as one.
+TEST(PeriodMap, CountsEachEvaluationOfALaw) {
+  const testing::Oscillator oscillator;
+  CondensedProblem problem = testing::fourier_problem(oscillator.structure(), 7, 32, 25.0);
+  constexpr double pressed = -1.0;
+  const auto operations = [&](const ContactLaws& laws) {
+    ModalMap modes = modal_map(problem, laws);
+    const StepControl even{std::numeric_limits<double>::infinity(), 1e10};
+    EXPECT_TRUE(modes.advance(modes.balanced(modes.state({}, {})), even).complete);
+    return modes.operations();
+  };
+  const double stiffness = oscillator.stiffness;
+  const double of_one = operations(ContactLaws(testing::LinearContact{stiffness, pressed}));
+  const double of_many = operations(ContactLaws(contact::HuntCrossleyLaw(stiffness, 1.5, 0.5, pressed)));
+  constexpr double least = 500.0 * 3.0;  // operations of three more evaluations
+  EXPECT_GE(of_many - of_one, least * samples);
 }
 
 // The repetition of a motion of three periods, as large as `lasting`, with one added that turns by `turns`

@@ -113,6 +113,7 @@ class ExactSolution {
   std::vector<FrictionCycle> cycles;  ///< of these
   std::vector<Impact> impacts;        ///< by time
   int unknowns = 0, iterations = 0, changes = 0;
+  double operations = 0.0;  ///< that count for CollocationOptions::max_operations
   double residual = 0.0;  ///< of the equations, relative to the largest force and displacement
   /// Relative rms error of the displacements, by the last Legendre coefficients and the residual.
   double estimated_error = 0.0;

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
@@ -53,6 +54,13 @@ struct AttractorMotion {
   /// Whether it has a period of so many of the load.
   bool repeats_after(int load_periods) const {
     return attractor_periods > 0 && load_periods % attractor_periods == 0;
+  }
+  /// One whose last motion is `piece`, which belongs to the returns.
+  AttractorMotion at(Motion piece) const {
+    AttractorMotion there;
+    there.start = start;
+    there.last = std::move(piece);
+    return there;
   }
 };
 

@@ -41,7 +41,7 @@ struct PeriodicResponse {
   Strategy strategy = Strategy::none;  ///< what found it
   /// AttractorMotion::attractor_periods if an attractor was computed; -1 otherwise.
   int attractor_periods = -1;
-  /// The motion that it converges to, where that has the period of the problem and the response none near it.
+  /// That attractor.
   std::shared_ptr<const AttractorMotion> settled;
   std::vector<double> residual_history;  ///< residuals of the last Newton run
   double condition = 0.0;                ///< NewtonResult::condition of that run
