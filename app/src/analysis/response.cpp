@@ -69,7 +69,7 @@ bool solve_exactly(solvers::ContactProblem& problem, const solvers::PeriodicResp
                    const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                    Response& result) {
   if (!options.exact_instead || found.converged() || found.settled == nullptr) return false;
-  // Friction that never repeats has wear and work, which the record of the motion that occurs tells.
+  // Friction that never repeats has wear and work, which the record of the motion that occurs has.
   if (has_friction(scene) && found.settled->attractor_periods == 0) return false;
   solvers::CollocationOptions exact;
   exact.max_operations = most_operations_of_exact(problem.contacts());
